@@ -12,7 +12,7 @@ namespace orthodyn {
 
 namespace {
 
-double stiffness_to_come(const Model& model) {
+double contact_stiffness_bound(const Model& model) {
   if (model.traits().linear) return 0;
   double sum = 0;
   for (const auto& part : model.force_parts()) {
@@ -25,7 +25,11 @@ double stiffness_to_come(const Model& model) {
 }  // namespace
 
 CriticalStep::CriticalStep(const Model& model, Statistics& statistics)
-    : model_(model), statistics_(statistics), reserve_(stiffness_to_come(model)), stiffness_(model), damping_(model) {}
+    : model_(model),
+      statistics_(statistics),
+      contact_bound_(contact_stiffness_bound(model)),
+      stiffness_(model),
+      damping_(model) {}
 
 double CriticalStep::limit(const State& state, double reserve) {
   const Measure measure(statistics_.tangent);
@@ -45,20 +49,20 @@ double CriticalStep::largest(const Linearization& at, const Weights& weights, Sp
   return absent ? 0 : bound.largest(values.data());
 }
 
-void refuse_a_run_without_end(const std::string& name, const Model& model, const Task& task, double reach,
-                              long max_steps) {
+void refuse_too_many_steps(const std::string& name, const Model& model, const Task& task, double reach,
+                           long max_steps) {
   Statistics unused;
   double longest = 0;
   try {
     longest = reach * CriticalStep(model, unused).at_present(task.initial);
   } catch (const RecoverableError&) {
-    return;  // the start has its own sentence for it
+    return;  // Integrator::start() reports the error
   }
   const double steps = (task.end - task.initial.t) / longest;
   if (steps > static_cast<double>(max_steps))
     throw ConfigError(
-        fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the "
-                    "start, more than max_steps, {}; use an implicit integrator, or raise max_steps",
+        fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the start, more "
+                    "than max_steps, {}; use an implicit integrator, or raise max_steps",
                     name, steps, longest, max_steps));
 }
 

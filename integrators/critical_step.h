@@ -1,13 +1,17 @@
 // The largest stable step of the leapfrog scheme of central_differences.cc.
 //
-// For the largest kappa of K x = kappa M x and delta of D x = delta M x it is the h of
-//     h^2 kappa + 4 h delta = 4,   h = 2 / (delta + sqrt(delta^2 + kappa)),
-// which is 2/omega where nothing is damped and 2/omega (sqrt(1 + 4 xi^2) - 2 xi) where kappa = omega^2 and
-// delta = 2 xi omega belong to one mode, as with stiffness-proportional damping; else it is below the limit.
+// With the largest eigenvalues kappa (1/s^2) of K x = kappa M x and delta (1/s) of D x = delta M x, the step h is the
+// solution of h^2 kappa + 4 h delta = 4,
 //
-// Contact may set in between two evaluations of the stiffness. kappa therefore is that of the state plus what the
-// forces that bound their own stiffness can come to: a bound at every depth of contact, for eigenvalues of a sum are at
-// most the sum of the largest ones (Weyl).
+//     h = 2 / (delta + sqrt(delta^2 + kappa)).
+//
+// Let kappa = omega^2. Without damping, h = 2/omega. If delta = 2 xi omega belongs to the same mode as omega, as with
+// stiffness-proportional damping, h is the exact limit 2/omega (sqrt(1 + 4 xi^2) - 2 xi). Otherwise h is below the
+// limit.
+//
+// Contact may begin between two evaluations of the stiffness. kappa therefore includes upper bounds for the stiffness
+// of contact and all other force terms except elasticity. This sum bounds the largest eigenvalue at every depth of
+// contact, because the largest eigenvalue of a sum of matrices is at most the sum of their largest eigenvalues (Weyl).
 #pragma once
 
 #include <string>
@@ -20,19 +24,20 @@ namespace orthodyn {
 
 class CriticalStep {
  public:
-  // Both must outlive this.
+  // Both arguments must outlive this object.
   CriticalStep(const Model& model, Statistics& statistics);
 
-  // At a state, s; infinite where there is neither stiffness nor damping. Throws RecoverableError where the model does.
-  // Keeps what the next call begins with: not thread-safe.
-  double at(const State& state) { return limit(state, reserve_); }
-  // The same without the stiffness that may set in later.
+  // Critical step (s) at a state; infinite without stiffness and damping. Throws the model's RecoverableError. Not
+  // thread-safe, because it keeps start vectors for the next call.
+  double at(const State& state) { return limit(state, contact_bound_); }
+  // As at(), but without reserve().
   double at_present(const State& state) { return limit(state, 0); }
 
-  // The largest eigenvalue of stiffness that may set in later, 1/s^2; 0 where none can.
-  double reserve() const { return reserve_; }
+  // Upper bound of the eigenvalues (1/s^2) that contact may add to those of K later; 0 if no stiffness can be added.
+  double reserve() const { return contact_bound_; }
 
-  // delta / kappa at the state of the last call, s: beta of damping beta K. 0 where nothing is damped or resists.
+  // delta / kappa (s) at the state of the last call, with kappa excluding reserve(). It equals beta if D = beta K, and
+  // is 0 without damping or stiffness.
   double damping_time() const { return damping_time_; }
 
  private:
@@ -41,13 +46,12 @@ class CriticalStep {
 
   const Model& model_;
   Statistics& statistics_;
-  double reserve_, damping_time_ = 0;
+  double contact_bound_, damping_time_ = 0;
   SpectralBound stiffness_, damping_;
 };
 
-// Refuses a run that an explicit method of variable step would not end within max_steps, each of them at most
-// `reach` times the leapfrog's critical step long. Throws ConfigError with the least number of steps.
-void refuse_a_run_without_end(const std::string& name, const Model& model, const Task& task, double reach,
-                              long max_steps);
+// Throws ConfigError, with the smallest possible number of steps, if an explicit adaptive method cannot reach the end
+// of the run within max_steps. Steps of the method are at most `reach` times the leapfrog's critical step.
+void refuse_too_many_steps(const std::string& name, const Model& model, const Task& task, double reach, long max_steps);
 
 }  // namespace orthodyn

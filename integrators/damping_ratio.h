@@ -1,19 +1,21 @@
-// How strongly damping acts on the motion itself, and whether that suffices for multistep methods of high order: they
-// stall on vibrations that last, for part of the imaginary axis is unstable for them from order 3 on.
+// Estimates the damping ratio of the motion, and decides whether it suffices for multistep methods of high order. At
+// order 3 and above, part of the imaginary axis lies outside their stability region, so persistent vibrations force
+// tiny steps.
 #pragma once
 
 #include "integrators/critical_step.h"
 
 namespace orthodyn {
 
-// beta omega / 2 of stiffness-proportional damping in every region, at the frequency that the scales tell of the
-// motion, about. `critical` has looked at a state.
+// Damping ratio beta omega / 2 of the motion if every region has damping D = beta K, with beta =
+// critical.damping_time() and omega = frequency_of_motion(scales). Precondition: `critical` has been evaluated at a
+// state.
 double damping_ratio_of_motion(const CriticalStep& critical, const Scales& scales);
 
-// rad/s.
+// Estimated angular frequency of the motion, rad/s.
 double frequency_of_motion(const Scales& scales);
 
-// Whether faster vibrations are gone soon enough.
+// True if vibrations faster than the motion decay soon enough for orders 3 to 5.
 bool suits_high_orders(double damping_ratio, double rtol);
 
 }  // namespace orthodyn

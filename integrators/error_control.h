@@ -1,5 +1,5 @@
-// The keys of error control. A local error is at tolerance if it is rtol times the scale of positions in every position
-// and rtol times the scale of velocities in every velocity (root mean square).
+// The keys of error control. The local error is at the tolerance if its root mean square is rtol times the position
+// scale in the positions and rtol times the velocity scale in the velocities.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,18 @@ struct ErrorControl {
   double h_min = 0;                                      // s
   long max_steps = 1'000'000;
 
-  // The scales that are given, and the task's where they are not.
+  // The scales given in the input; the task estimates those that are missing.
   Scales scales(const Task& task) const;
 
-  // These keys, in a Spec of a struct derived from this one.
+  // Spec with these keys for a struct derived from this one.
   template <class T>
   static Spec<T> spec_for();
 };
 
-// Throws ConfigError unless h_min <= h_max and h0 <= h_max, where they are given.
+// Throws ConfigError unless h_min <= h_max and h0 <= h_max, if given.
 void check_error_control(const ErrorControl& control, const Config& config);
 
-// How the scales appear among an integrator's decisions.
+// The scales as entries of Integrator::decisions().
 Decisions scale_decisions(const Scales& scales);
 
 template <class T>

@@ -1,4 +1,4 @@
-// The key `step` of methods that take a fixed step in place of error control.
+// The key `step`: a fixed step instead of error control.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,11 @@ namespace orthodyn {
 struct FixedStep {
   std::optional<double> step;  // s
 
-  // This key, in a Spec of a struct that has the keys of ErrorControl too.
+  // Adds this key, described by `sentence`, to the Spec of a struct derived from this one and from ErrorControl. Input
+  // with `step` must not contain h0, h_min or h_max.
   template <class T>
-  static void add_to(Spec<T>& spec, const std::string& sentence) {
-    spec.key("step", &FixedStep::step, sentence, {.unit = "s", .range = kPositive})
+  static Spec<T>& add_to(Spec<T>& spec, const std::string& sentence) {
+    return spec.key("step", &FixedStep::step, sentence, {.unit = "s", .range = kPositive})
         .check([](const T& options, const Config& config) {
           if (!options.step) return;
           if (options.h0) config.at("h0").fail("has no meaning with a fixed step");
@@ -24,14 +25,15 @@ struct FixedStep {
   }
 };
 
-// The next step towards a stop that is `rest` away, s. The last two are equal: a tiny last one would spoil the
-// extrapolation of methods that remember the step before. `round_off` is relative.
+// Length (s) of the next step if the stop is `rest` (s) away. The last two steps are equal, because a tiny last step
+// would spoil the extrapolation of methods that use the previous step. `round_off`: relative round-off of `rest` to be
+// tolerated.
 inline double length_of_step(double step, double rest, double round_off = 0) {
   if (rest <= step * (1 + round_off)) return rest;
   return rest < 2 * step * (1 - round_off) ? 0.5 * rest : step;
 }
 
-// The same where the ends of many equal steps do not quite meet the stop.
+// As length_of_step(), but tolerates the round-off of a sum of many equal steps.
 inline double length_of_fixed_step(double step, double rest) { return length_of_step(step, rest, 1e-6); }
 
 }  // namespace orthodyn

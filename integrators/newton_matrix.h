@@ -1,8 +1,8 @@
-// The symmetric n x n matrix of every implicit scheme, A = w_m M + w_d D + w_k K, and its factor.
+// The n x n matrix of an implicit scheme, A = w_m M + w_d D + w_k K, and its factor. For schemes on the second-order
+// form w_m = 1, w_d is in s and w_k in s^2.
 //
-// When the exact tangent makes A indefinite, K is rebuilt from the Gauss-Newton part, which is
-// positive semidefinite, and stays so for the next ten set-ups. Weights: w_m is 1, w_d in s, w_k in s^2 for the schemes
-// of second order. Not thread-safe: one per integrator.
+// If A of a nonlinear model is found indefinite, K is replaced by its positive semidefinite Gauss-Newton part, for this
+// and the next ten calls of linearize(). Not thread-safe: one object per integrator.
 #pragma once
 
 #include <memory>
@@ -17,33 +17,35 @@ namespace orthodyn {
 
 class NewtonMatrix {
  public:
-  // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics`
-  // must outlive this.
+  // Throws ConfigError if the solver does not accept the model's matrices. `model` and `statistics`
+  // must outlive this object.
   NewtonMatrix(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics);
 
-  // K and D at a state (t in s, q and v of num_dofs()); factor() then may be called for any weights. Throws
-  // RecoverableError where the model does.
+  // Computes K and D at a state (t in s, q and v of size num_dofs()). factor() may then be called with any weights.
+  // Throws the model's RecoverableError.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v);
 
-  // Precondition: linearize(). False if the matrix is singular or indefinite: a smaller step may help. Throws RunError
-  // if memory does not suffice.
+  // Factors A. Precondition: linearize() has been called. False if A is singular or indefinite; a smaller step may
+  // help. Throws RunError if memory is short.
   bool factor(const Weights& weights);
 
-  // x = A^-1 b, as good as an iterative solver's tolerance. b and x may be the same. Precondition: the last
-  // factor() was true. Such a solver throws RecoverableError where it does not converge, or where it comes upon an
-  // indefinite A; then the next set-ups are as above.
+  // Solves A x = b; an iterative solver solves to its tolerance. b and x may be the same. Precondition: the last
+  // factor() returned true. An iterative solver throws RecoverableError if it does not converge or finds A indefinite.
+  // In the latter case the next ten calls of linearize() use the Gauss-Newton part, if the model is nonlinear.
   void solve(const ConstVectorRef& b, VectorRef x);
 
-  // Of the next solutions of an iterative solver; by default 1e-10.
+  // True if solve() is accurate to a tolerance only, not to round-off.
   bool is_iterative() const { return solver_->is_iterative(); }
+  // Sets the tolerance of the next solves of an iterative solver; 1e-10 by default.
   void set_tolerance(const SolveTolerance& tolerance) { solver_->set_tolerance(tolerance); }
-  // That of a correction of Newton's method: `absolute` is what it may be off by without being noticed. Below a share
-  // of the correction itself the next one mends it (Dembo, Eisenstat & Steihaug, SIAM J. Numer. Anal. 19, 1982).
-  // Corrections are known to shrink by least_rate() at best, whatever they did.
+  // Smallest ratio of successive Newton corrections that set_newton_tolerance() permits; 0 with a direct solver.
   double least_rate() const { return is_iterative() ? kNewtonForcing : 0; }
+  // Sets the tolerance for corrections of Newton's method: a relative error of 1e-2 (forcing term) or an absolute error
+  // of `absolute`, whichever is larger. The next correction removes what is left (Dembo, Eisenstat & Steihaug, SIAM J.
+  // Numer. Anal. 19, 1982).
   void set_newton_tolerance(double absolute) { set_tolerance({kNewtonForcing, absolute}); }
 
-  // y = K x
+  // Computes y = K x.
   void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const;
 
   const Weights& weights() const { return weights_; }  // of the last factor()
@@ -62,10 +64,10 @@ class NewtonMatrix {
   Statistics& statistics_;
   std::unique_ptr<LinearSolver> solver_;
   TangentKind tangent_;
-  int gauss_newton_left_ = 0;  // set-ups for which the Gauss-Newton part is used
-  State at_;                   // where K and D were taken
+  int gauss_newton_left_ = 0;  // number of further linearize() calls that use the Gauss-Newton part
+  State at_;                   // at which K and D were computed
   Linearization linearization_;
-  std::vector<double> values_;  // of A
+  std::vector<double> values_;  // entries of A
   Weights weights_;
 };
 

@@ -1,52 +1,44 @@
-// One symmetric n x n solve in place of the 2n x 2n system of y' = (v, M^-1 f).
+// Replaces the 2n x 2n linear systems of methods for y' = (v, M^-1 f), y = (q, v), by one n x n solve.
 //
-// With y = (q, v) and A = M + gamma D + gamma^2 K, the systems of CVODE, ARKODE, IDA and of Rosenbrock
-// methods reduce to
-//     A dv = p - gamma K r_q,   dq = r_q + gamma dv:
-//   (I - gamma J) dy = r:                               p = M r_v;
-//   IDA, (dF/dy + cj dF/dy') dy = b, gamma = 1/cj:     r_q = gamma b_q, p = gamma b_v.
-// dq is found from dv, not dv from dq: the latter cancels for small gamma.
+// With A = M + gamma D + gamma^2 K (gamma in s), the systems of CVODE, ARKODE, IDA and Rosenbrock methods for the
+// correction dy = (dq, dv) reduce to
+//
+//     A dv = p - gamma K r_q,   dq = r_q + gamma dv.
+//
+// First-order form, (I - gamma J) dy = (r_q, r_v):                 p = M r_v.
+// IDA, (dF/dy + cj dF/dy') dy = (b_q, b_v) with gamma = 1/cj:      r_q = gamma b_q, p = gamma b_v.
+//
+// dq is computed from dv. Computing dv from dq would lose digits by cancellation if gamma is small.
 #pragma once
 
 #include "integrators/newton_matrix.h"
 
 namespace orthodyn {
 
-class ReducedSolve {
+class ReducedSolve : public NewtonMatrix {
  public:
-  // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics`
-  // must outlive this.
+  // Throws ConfigError if the solver does not accept the model's matrices. `model` and `statistics`
+  // must outlive this object.
   ReducedSolve(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics)
-      : matrix_(model, solver, tangent, statistics), work_(model.num_dofs()) {}
+      : NewtonMatrix(model, solver, tangent, statistics), work_(model.num_dofs()) {}
 
-  // K and D at a state; factor() then may be called for any gamma.
-  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v) { matrix_.linearize(t, q, v); }
+  // Factors A. False if A is singular or indefinite; a smaller gamma may help.
+  bool factor(double gamma) { return NewtonMatrix::factor({1, gamma, gamma * gamma}); }
 
-  // False if no factor could be had: a smaller gamma may help.
-  bool factor(double gamma) { return matrix_.factor({1, gamma, gamma * gamma}); }
-
-  // Solves as above with the gamma of the last factor(): what SUNDIALS expects of a direct solver, whose
-  // corrections it scales itself when gamma has moved on. r_q and dq, p and dv may be the same.
+  // Solves as above with the gamma of the last factor(). SUNDIALS expects this gamma from a direct solver, and scales
+  // the corrections itself if gamma has changed since. r_q and dq may be the same vector; so may p and dv.
   void solve(const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv) {
-    const double gamma = matrix_.weights().damping;
-    matrix_.multiply_stiffness(r_q, work_);
-    work_ = p - gamma * work_;
-    matrix_.solve(work_, dv);
-    dq = r_q + gamma * dv;
+    multiply_stiffness(r_q, work_);
+    work_ = p - gamma() * work_;
+    NewtonMatrix::solve(work_, dv);
+    dq = r_q + gamma() * dv;
   }
 
-  // As NewtonMatrix has them, of dv.
-  bool is_iterative() const { return matrix_.is_iterative(); }
-  double least_rate() const { return matrix_.least_rate(); }
-  void set_newton_tolerance(double absolute) { matrix_.set_newton_tolerance(absolute); }
-  double gamma() const { return matrix_.weights().damping; }  // of the last factor()
+  double gamma() const { return weights().damping; }  // gamma of the last factor(), s
 
-  std::size_t factor_bytes() const { return matrix_.factor_bytes(); }
-  std::size_t bytes() const { return matrix_.bytes() + static_cast<std::size_t>(work_.size()) * sizeof(double); }
-  std::string description() const { return matrix_.description(); }
+  std::size_t bytes() const { return NewtonMatrix::bytes() + static_cast<std::size_t>(work_.size()) * sizeof(double); }
 
  private:
-  NewtonMatrix matrix_;
   Vector work_;
 };
 

@@ -1,5 +1,8 @@
-// The norm of the error test: the root mean square over positions and velocities, in units of what is at
-// tolerance (rtol times the scale of either); as SUNDIALS measures with these weights.
+// The norm of the error test, equal to SUNDIALS' weighted root mean square of (q, v) with n entries each:
+//
+//     sqrt((|q / (rtol * position scale)|^2 + |v / (rtol * velocity scale)|^2) / (2 n))
+//
+// An error of norm 1 is at the tolerance.
 #pragma once
 
 #include <cmath>
@@ -10,20 +13,20 @@ namespace orthodyn {
 
 class ScaledNorm {
  public:
-  // `space`: that of the model's vectors.
+  // `space`: Model::space().
   ScaledNorm(double rtol, const Scales& scales, const VectorSpace& space = {})
       : position_(1 / (rtol * scales.position)), velocity_(1 / (rtol * scales.velocity)), rtol_(rtol), space_(space) {}
 
   double operator()(const ConstVectorRef& q, const ConstVectorRef& v) const {
     return root_mean(position_ * space_.stable_norm(q), velocity_ * space_.stable_norm(v), space_.size(q));
   }
-  // Of q = w_q x, v = w_v x.
+  // The norm of (q, v) = (w_q x, w_v x).
   double operator()(const ConstVectorRef& x, double w_q, double w_v) const {
     const double size = space_.stable_norm(x);
     return root_mean(position_ * w_q * size, velocity_ * w_v * size, space_.size(x));
   }
 
-  // The root mean square of an x that has the norm `size` as q = w_q x, v = w_v x.
+  // The root mean square of a vector x for which (q, v) = (w_q x, w_v x) has the norm `size`.
   double root_mean_square_at(double size, double w_q, double w_v) const {
     return size * std::sqrt(2.0) / std::hypot(position_ * w_q, velocity_ * w_v);
   }

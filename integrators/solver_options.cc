@@ -12,12 +12,12 @@ namespace {
 struct SolverSection {
   std::string type, options;
   static const Spec<SolverSection>& spec() {
-    static const auto s = Spec<SolverSection>()
-                              .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
-                              .key("options", &SolverSection::options,
-                                   "What the solver is told, as on a command line: -ksp_type cg. Of PETSc what chooses "
-                                   "a method and sets its "
-                                   "numbers; views and monitors go in the environment's PETSC_OPTIONS.");
+    static const auto s =
+        Spec<SolverSection>()
+            .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
+            .key("options", &SolverSection::options,
+                 "Options as on a command line: -ksp_type cg. For PETSc those that choose a method and its parameters; "
+                 "put views and monitors in the environment variable PETSC_OPTIONS.");
     return s;
   }
 };
@@ -48,7 +48,8 @@ void require_linear_solver(const SolverChoice& choice, SolverPaths paths, const 
   const Config place = given.is_map() ? given.at("type") : given;
   const auto& all = solver_registry();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    if (all.contains(name)) place.fail("'" + name + "' is SUNDIALS' own; this integrator takes one of " + join(names));
+    if (all.contains(name))
+      place.fail("'" + name + "' belongs to SUNDIALS' integrators; this integrator takes one of " + join(names));
     place.fail(expected_one_of(names, name), InputFault::form);
   }
   const SolverKind& kind = all.at(name);

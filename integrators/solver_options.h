@@ -1,4 +1,4 @@
-// Keys of methods that solve linear systems, and of Newton's method: the same for our own methods and for SUNDIALS'.
+// Keys of linear solvers and of Newton's method, shared by the native methods and those of SUNDIALS.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace orthodyn {
 
-// `reduced`: solvers of the n x n matrix w_m M + w_d D + w_k K. `all`: also those that factor the full 2n x 2n system
-// ("klu_full"), which not every integrator can use.
+// The linear solvers that an integrator accepts. reduced: those of the n x n matrix w_m M + w_d D + w_k K. all: also
+// "klu_full", which factors the 2n x 2n system; only integrators of SUNDIALS accept it.
 enum class SolverPaths { reduced, all };
 
-// A name, or a section with the name as `type`.
+// In the input, a solver is a name, or a section with the name as `type`.
 template <>
 struct Value<SolverChoice> {
   static ValueSchema schema();
@@ -24,8 +24,8 @@ struct Value<SolverChoice> {
 
 std::vector<std::string> linear_solver_names(SolverPaths paths);
 
-// Throws ConfigError at section.linear_solver unless it is one of them that this build can make, with options that it
-// takes.
+// Throws ConfigError at section.linear_solver if the solver is not in linear_solver_names(paths), is missing in this
+// build, or does not accept its options.
 void require_linear_solver(const SolverChoice& choice, SolverPaths paths, const Config& section);
 
 // Adds the key `linear_solver` and its check to the Spec of a struct that has this member.
@@ -34,21 +34,21 @@ Spec<T>& add_linear_solver(Spec<T>& spec, SolverPaths paths) {
   const bool all = paths == SolverPaths::all;
   return spec
       .key("linear_solver", &T::linear_solver,
-           std::string("One of `orthodyn list solvers`") + (all ? "." : ", but for klu_full.") +
-               " `{type: petsc, options: \"...\"}` passes options on to it.")
+           std::string("One of `orthodyn list solvers`") + (all ? "." : ", except klu_full.") +
+               " `{type: petsc, options: \"...\"}` passes options to PETSc.")
       .check([paths](const T& options, const Config& config) {
         require_linear_solver(options.linear_solver, paths, config);
       });
 }
 
-// How the linear systems of an implicit method are made and solved.
+// Tangent and linear solver of an implicit method.
 struct SolverOptions {
   SolverChoice linear_solver;
   bool gauss_newton = false;
 
   TangentKind tangent() const { return gauss_newton ? TangentKind::gauss_newton : TangentKind::exact; }
 
-  // These keys, in the Spec of a struct derived from this one.
+  // Adds these keys to the Spec of a struct derived from this one.
   template <class T>
   static Spec<T>& add_to(Spec<T>& spec, SolverPaths paths) {
     return add_linear_solver(spec, paths)
@@ -57,13 +57,14 @@ struct SolverOptions {
   }
 };
 
-// When Newton's method stops.
+// The limits at which Newton's method stops.
 struct NewtonLimits {
   double nonlinear_coefficient = 1e-3;
   int max_newton_iterations = 6;
 
-  // These keys, in the Spec of a struct derived from this one: what nonlinear_coefficient is a fraction of, and what
-  // the iterations are for, in words.
+  // Adds these keys to the Spec of a struct derived from this one. `fraction_of`: the tolerance that
+  // nonlinear_coefficient multiplies ("rtol"). `unit_of_work`: what max_newton_iterations applies to ("step", "stage").
+  // Both are named in the keys' sentences.
   template <class T>
   static Spec<T>& add_to(Spec<T>& spec, const std::string& fraction_of, const std::string& unit_of_work) {
     return spec

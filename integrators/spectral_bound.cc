@@ -13,21 +13,21 @@ namespace orthodyn {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr int kMinIterations = 20;    // a warm start must have seen more than its own mode
-constexpr double kResidual = 0.01;    // of the eigenvalue: half a percent of a frequency
-constexpr double kFreshPart = 0.1;    // of a random vector in a warm start
-constexpr double kBreakdown = 1e-12;  // of the eigenvalue: the space is invariant
+constexpr int kMinIterations = 20;    // a warm start must find more than the mode it starts from
+constexpr double kResidual = 0.01;    // relative to the eigenvalue: half a percent of a frequency
+constexpr double kFreshPart = 0.1;    // share of a random vector in a warm start
+constexpr double kBreakdown = 1e-12;  // relative to the eigenvalue; below it the space is invariant
 
 }  // namespace
 
-// The tridiagonal matrix, and Lanczos vectors in single precision: from them the next call starts.
+// The tridiagonal matrix, and the Lanczos vectors in single precision for the start vector of the next call.
 struct SpectralBound::Basis {
-  explicit Basis(int size) : diagonal(size), beside(size) {}
+  explicit Basis(int size) : diagonal(size), off_diagonal(size) {}
 
   // The largest eigenpair of the leading k x k part.
   std::pair<double, Vector> largest(int k) const {
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes;
-    modes.computeFromTridiagonal(diagonal.head(k), beside.head(k - 1));
+    modes.computeFromTridiagonal(diagonal.head(k), off_diagonal.head(k - 1));
     return {modes.eigenvalues()[k - 1], modes.eigenvectors().col(k - 1)};
   }
   Vector combined(const Vector& shape) const {
@@ -37,7 +37,7 @@ struct SpectralBound::Basis {
   }
 
   std::vector<Eigen::VectorXf> v;
-  Vector diagonal, beside;
+  Vector diagonal, off_diagonal;
 };
 
 SpectralBound::SpectralBound(const Model& model) : model_(model), random_(random_vector(model)) {}
@@ -54,21 +54,22 @@ Vector SpectralBound::start() const {
   return ritz_ / space.norm(ritz_) + kFreshPart * random_ / space.norm(random_);
 }
 
-// Each vector is made orthogonal to the two before it alone: all of them would take more time and memory than the
-// matrix. The others stay so until an eigenvalue is known to half of the digits (Paige 1971). Where that comes before
-// kMinIterations, copies of it appear, which are not above it: the bound remains one.
+// Each vector is orthogonalised only against the previous two; against all of them, it would take more time and memory
+// than the matrix. Orthogonality to the others persists until an eigenvalue has converged to half of the digits (Paige
+// 1971). If that happens before kMinIterations, copies of the eigenvalue appear. They do not exceed it, so the bound
+// remains valid.
 double SpectralBound::largest(const double* values) {
   const VectorSpace space = model_.space();
   const int n = model_.num_dofs();
   const int most = static_cast<int>(std::min<Eigen::Index>(model_.num_dofs_of_all(), kMaxIterations));
   Basis basis(most);
   Vector w = start(), v = Vector::Zero(n), before(n), mw(n), av(n);
-  double scale = 0;  // of the eigenvalues met
+  double scale = 0;  // largest eigenvalue so far
   for (int k = 0;; ++k) {
     model_.multiply_mass(w, mw);
     const double norm = std::sqrt(std::max(space.dot(w, mw), 0.0));
     if (k > 0) {
-      basis.beside[k - 1] = norm;
+      basis.off_diagonal[k - 1] = norm;
       const auto [value, shape] = basis.largest(k);
       scale = std::max(scale, std::abs(value));
       const double residual = norm * std::abs(shape[k - 1]);
@@ -85,7 +86,7 @@ double SpectralBound::largest(const double* values) {
     multiply(values, v, av);
     basis.diagonal[k] = space.dot(v, av);
     model_.solve_mass(av);
-    w = av - basis.diagonal[k] * v - norm * before;  // 0 before the first
+    w = av - basis.diagonal[k] * v - norm * before;  // `before` is 0 at k = 0
   }
 }
 

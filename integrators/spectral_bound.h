@@ -1,8 +1,8 @@
-// An upper bound of the largest eigenvalue of A x = lambda M x, for matrices on a model's pattern, by
-// Lanczos' method in the inner product of M.
+// An upper bound of the largest eigenvalue lambda of A x = lambda M x, for a matrix A on a model's pattern, by Lanczos'
+// method in the inner product of M. An unsymmetric A is replaced by its symmetric part.
 //
-// The residual's norm is added to the largest Ritz value (Zhou & Li, Linear Algebra Appl. 435, 2011): a bound
-// once the start has a part in the largest mode, which a random one has. A is replaced by its symmetric part.
+// The bound is the largest Ritz value plus the norm of its residual (Zhou & Li, Linear Algebra Appl. 435, 2011). It is
+// valid if the start vector has a component in the highest mode, as a random vector has.
 #pragma once
 
 #include "lib/ode/model.h"
@@ -11,11 +11,12 @@ namespace orthodyn {
 
 class SpectralBound {
  public:
-  // `model` must outlive this.
+  // `model` must outlive this object.
   explicit SpectralBound(const Model& model);
 
-  // `values` on model.pattern(). In the unit of A over that of M: 1/s^2 for a stiffness, 1/s for a damping matrix. At
-  // least 0. Begins with the last call's Ritz vector: cheap where little has changed. Not thread-safe for this reason.
+  // The bound, at least 0, for A with `values` on model.pattern(): in 1/s^2 for a stiffness, in 1/s for a damping
+  // matrix. The iteration starts from the Ritz vector of the last call, so it is cheap if A has changed little. Not
+  // thread-safe for this reason.
   double largest(const double* values);
 
  private:
@@ -25,7 +26,7 @@ class SpectralBound {
 
   const Model& model_;
   Vector random_, ritz_;
-  bool is_warm_ = false;  // ritz_ is of an earlier call
+  bool is_warm_ = false;  // ritz_ is set
 };
 
 }  // namespace orthodyn

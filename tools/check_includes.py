@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Checks the dependency rule: which module may include which, and who may see which library.
+"""Checks the dependency rules: which modules a module may include, and which files may include a library.
 
-Usage: check_includes.py [ROOT]. Prints each violation as file:line and exits with 1 if there is one.
+Usage: check_includes.py [ROOT]. Prints each violation as file:line; exits with 1 if there is one.
 """
 import pathlib
 import re
 import sys
 
-# Module -> modules that it may include, itself aside. A folder within a module may have its own line.
+# Module -> other modules it may include. A folder within a module may have its own line.
 BASIC = {"lib/core", "lib/config"}
 PHYSICS = BASIC | {"lib/material", "lib/mesh", "lib/material_axes", "lib/element", "lib/ode", "lib/statics", "lib/linear", "lib/fem",
                    "lib/analysis"}
@@ -37,7 +37,7 @@ ALLOWED = {
     "lib/study/stability": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
     "integrators": BASIC | {"lib/ode", "lib/statics", "lib/linear"},
 }
-# Include prefix of a library -> the only places that may name it.
+# Include prefix of a library -> the only places that may include it.
 LIBRARIES = {
     r"yaml-cpp/": ["lib/config/yaml_document.h"],
     r"(sundials|cvode|ida|arkode|kinsol|nvector|sunmatrix|sunlinsol)/": ["integrators/", "lib/petsc/parallel_vector.cc"],
@@ -63,7 +63,7 @@ def module_of(path):
 
 def violations(path, line):
     if VERSION_SWITCH.match(line) and path != "integrators/sundials/version.h":
-        yield "asks for the SUNDIALS version; only integrators/sundials/version.h may"
+        yield "tests the SUNDIALS version; only integrators/sundials/version.h may"
     match = INCLUDE.match(line)
     if not match:
         return
@@ -86,8 +86,8 @@ def main(root):
                 continue
             path = file.relative_to(root).as_posix()
             for number, line in enumerate(file.read_text().splitlines(), 1):
-                for what in violations(path, line):
-                    print(f"{path}:{number}: {what}")
+                for violation in violations(path, line):
+                    print(f"{path}:{number}: {violation}")
                     found += 1
     return 1 if found else 0
 

@@ -1,4 +1,4 @@
-// A material of one's own: cubic symmetry, as in many metals. Three constants.
+// Example of a user's material: an elastic law of cubic symmetry, as of many metals, with three constants.
 #include "lib/material/material.h"
 
 namespace {
@@ -13,7 +13,8 @@ class Cubic : public Material {
         Spec<Cubic>()
             .key("density", &Cubic::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
             .key("c11", &Cubic::c11_, "Stiffness along a crystal axis at no lateral strain.", modulus)
-            .key("c12", &Cubic::c12_, "Its coupling to another axis.", {.required = true, .unit = "Pa"})
+            .key("c12", &Cubic::c12_, "Stress along a crystal axis per strain along another one.",
+                 {.required = true, .unit = "Pa"})
             .key("c44", &Cubic::c44_, "Shear modulus in the planes of the axes.", modulus)
             .check([](const Cubic& c, const Config& config) {
               if (c.c11_ <= std::abs(c.c12_) || c.c11_ + 2 * c.c12_ <= 0)

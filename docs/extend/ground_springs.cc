@@ -1,4 +1,4 @@
-// A term of one's own: every node within a sphere is tied to its place at rest by a spring.
+// Example of a user's term: springs that tie all nodes within a sphere to their rest positions.
 #include "lib/fem/term_choice.h"
 
 namespace {
@@ -17,12 +17,12 @@ class GroundSprings : public Term {
     for (const int i : nodes_) f.col(i) -= k_ * s.u.col(i);
   }
 
-  // -df/dx: k on the diagonal block of each node.
+  // Adds the stiffness -df/dx: k times the identity in the diagonal block of each node.
   void add_tangent(const NodalState&, TangentKind, double* stiffness, double*) const override {
     for (const int i : nodes_) pattern_.add(i, i, pattern_.offset(i, i), k_ * Mat3::Identity(), stiffness);
   }
 
-  // For the step of explicit schemes.
+  // Adds a bound of the stiffness, which limits the step of explicit schemes.
   void add_stiffness_bound(Vector& row_sums) const override {
     for (const int i : nodes_) row_sums[i] += k_;
   }
@@ -47,8 +47,8 @@ class GroundSpringsChoice : public TermChoice {
     static const auto s =
         Spec<G>()
             .key("center", &G::center_, "Centre of the sphere.", {.required = true, .unit = "m"})
-            .key("radius", &G::radius_, "Its radius.", {.required = true, .unit = "m", .range = kPositive})
-            .key("stiffness", &G::stiffness_, "Of the spring at each node.",
+            .key("radius", &G::radius_, "Radius of the sphere.", {.required = true, .unit = "m", .range = kPositive})
+            .key("stiffness", &G::stiffness_, "Stiffness of the spring at each node.",
                  {.required = true, .unit = "N/m", .range = kPositive});
     return s;
   }
@@ -61,7 +61,7 @@ class GroundSpringsChoice : public TermChoice {
     return std::make_unique<GroundSprings>(stiffness_, std::move(nodes), body);
   }
 
-  SourceLocation origin;  // filled in: where it stands in the input
+  SourceLocation origin;  // place in the input, for error messages; set by the reader
 
  private:
   Vec3 center_ = Vec3::Zero();
@@ -69,6 +69,6 @@ class GroundSpringsChoice : public TermChoice {
 };
 
 const bool ground_springs_registered =
-    Registry<TermChoice>::add<GroundSpringsChoice>("ground_springs", "Springs that tie nodes to their places at rest.");
+    Registry<TermChoice>::add<GroundSpringsChoice>("ground_springs", "Springs between nodes and their rest positions.");
 
 }  // namespace

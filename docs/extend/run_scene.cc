@@ -1,4 +1,5 @@
-// A scene from a file, run by a program of one's own: it changes a value, looks at each output, and uses the result.
+// Example of a user's program that runs a scene from a file: it changes a key of the scene, reads each output during
+// the run, and reports the result.
 //   run_scene SCENE.yaml FOLDER
 #include <fmt/format.h>
 
@@ -15,11 +16,11 @@ namespace {
 
 using namespace orthodyn;
 
-// Sees the states while they are computed: no file has to be read back.
+// Prints the largest displacement and the elastic energy at each output during the run.
 class LargestDisplacement : public Observer {
  public:
   void on_output(const ObservedState& observed) override {
-    const auto u = observed.evaluate("displacement");  // three numbers for each node, m
+    const auto u = observed.evaluate("displacement");  // three components for each node (m)
     double largest = 0;
     for (const double component : u) largest = std::max(largest, std::abs(component));
     fmt::print("t = {:.4f} s: largest component of displacement {:.4g} m, elastic energy {:.4g} J\n", observed.t(),
@@ -38,14 +39,14 @@ int run(const std::string& scene, const std::string& folder) {
   const std::atomic<bool> interrupt{false};
   Listener listener;
   const RunResult result = simulation.run({.folder = folder, .force = true}, interrupt, listener);
-  for (const auto& doubt : doubts(result)) fmt::print("doubt: {}\n", doubt);
+  for (const auto& warning : result_warnings(result)) fmt::print("warning: {}\n", warning);
   if (result.outcome.status != Outcome::Status::completed) {
     fmt::print("stopped at t = {} s: {}\n", result.outcome.last.t, result.outcome.message);
     return 3;
   }
   if (result.motion)
-    fmt::print("{} steps, {} factorisations; files are in {}\n", result.motion->effort.statistics.steps,
-               result.motion->effort.statistics.factorization.count, result.folder.string());
+    fmt::print("{} steps, {} factorisations; files are in {}\n", result.motion->cost.statistics.steps,
+               result.motion->cost.statistics.factorization.count, result.folder.string());
   return 0;
 }
 

@@ -1,4 +1,4 @@
-// An integrator of one's own: velocity Verlet (leapfrog), explicit, second order, with a fixed step.
+// Example of a user's integrator: velocity Verlet (leapfrog), which is explicit, of second order, with a fixed step.
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"
 #include "lib/ode/settable_choice.h"
@@ -18,7 +18,7 @@ class VelocityVerlet : public Integrator {
 
   StepInfo step(double t_stop) override {
     const double left = t_stop - end_.t;
-    const bool last = left < step_ * (1 + 1e-9);  // no tiny step at the end
+    const bool last = left < step_ * (1 + 1e-9);  // avoids a tiny step at the end
     const double h = last ? left : step_;
     begin_ = end_;
     end_.t = last ? t_stop : begin_.t + h;
@@ -64,7 +64,7 @@ class VelocityVerletChoice : public SettableChoice<VelocityVerletChoice> {
 
   std::unique_ptr<Integrator> make(const Model& model, const Task&) const override {
     if (model.traits().dissipative)
-      throw ConfigError("velocity_verlet takes no forces that depend on velocity; remove the damping");
+      throw ConfigError("velocity_verlet does not support forces that depend on velocity; remove the damping");
     return std::make_unique<VelocityVerlet>(model, step);
   }
 

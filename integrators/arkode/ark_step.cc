@@ -1,6 +1,10 @@
 #include "integrators/arkode/ark_step.h"
 
+#include <arkode/arkode_arkstep.h>
+
 #include "integrators/fixed_step.h"
+#include "integrators/sundials/sundials_integrator.h"
+#include "lib/ode/hermite.h"
 
 namespace orthodyn::sundials {
 
@@ -9,173 +13,240 @@ namespace {
 constexpr int kMaxRetries = 20;
 constexpr double kRetryFactor = 0.25;
 
-ArkStep& ark_step(void* user) { return *static_cast<ArkStep*>(user); }
+constexpr LibraryCalls kArkCalls = ORTHODYN_LIBRARY_CALLS(ARKStep);
+
+struct FreeArkStep {
+  void operator()(void* memory) const { ARKStepFree(&memory); }
+};
+
+// The part of the force that one table integrates, as accelerations M^-1 f in m/s^2.
+struct ArkPart {
+  const Model* model = nullptr;  // null: the method has no such part
+  Vector last;                   // acceleration at the last evaluated stage
+  Vector at_end;                 // acceleration at the end of the last step
+};
+
+// A base class, so that the models of a split force outlive the integrator that refers to them.
+struct OwnedMethod {
+  ArkMethod method_;
+};
+
+class ArkStep final : private OwnedMethod, public SundialsIntegrator {
+ public:
+  // If the force is split, K and D are those of the implicit part.
+  ArkStep(const Model& model, ArkMethod method, const Options& options, const Scales& scales)
+      : OwnedMethod{std::move(method)},
+        SundialsIntegrator(method_.name, kArkCalls, method_.split.implicit_part ? *method_.split.implicit_part : model,
+                           options, scales, method_.implicit_table != nullptr) {
+    check_mass_for_full_jacobian();
+    if (method_.explicit_table) add_part(explicit_, method_.split.explicit_part ? *method_.split.explicit_part : model);
+    if (method_.implicit_table) add_part(implicit_, model_);
+  }
+
+  bool adaptive() const override { return !method_.step; }
+
+ private:
+  void* memory() const override { return memory_.get(); }
+
+  static void add_part(ArkPart& part, const Model& model) {
+    part = {&model, Vector(model.num_dofs()), Vector(model.num_dofs())};
+  }
+  bool is_split() const { return explicit_.model && implicit_.model; }
+  ArkPart& only_part() { return implicit_.model ? implicit_ : explicit_; }
+  const ARKodeButcherTableMem& main_table() const {
+    return method_.implicit_table ? *method_.implicit_table : *method_.explicit_table;
+  }
+
+  void initialise(double t) override {
+    begin_at(t);
+    memory_.reset(ARKStepCreate(explicit_callback(), implicit_callback(), t, y(), context_));
+    void* m = memory();
+    if (!m) throw RunError("ARKODE could not be created");
+    ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &callback_context_.message);
+    set_error_weights();
+    set_step_limits();
+    // Degree 3 is the highest that needs no force evaluation. Only predictors use this interpolant.
+    require(ARKStepSetInterpolantDegree(m, 3));
+    require(ARKStepSetTables(m, main_table().q, main_table().p, method_.implicit_table.get(),
+                             method_.explicit_table.get()));
+    if (newton_system_) use_newton();
+  }
+
+  void reinitialise(double t) override {
+    begin_at(t);
+    retries_ = 0;
+    require(ARKStepReInit(memory(), explicit_callback(), implicit_callback(), t, y()));
+  }
+
+  int advance(double t_stop, double& t) override {
+    if (method_.step) require(ARKStepSetFixedStep(memory(), length_of_fixed_step(*method_.step, t_stop - t)));
+    for (int attempt = 0;; ++attempt) {
+      require(ARKStepSetStopTime(memory(), t_stop));
+      sunrealtype reached = t;  // after a failure, the time of a stage
+      const int flag = ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
+      if (flag >= 0) take_end(t = reached);
+      if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == kMaxRetries || !retry_with_shorter_step()) return flag;
+    }
+  }
+
+  // ARKODE gives up if the force fails in an explicit stage. This function restarts the step with a quarter of its
+  // length. False if no shorter step is allowed.
+  bool retry_with_shorter_step() {
+    const double h = kRetryFactor * current_step();
+    if (method_.step || callback_context_.failure || h < options_.h_min || end_.t + h == end_.t) return false;
+    ++retries_;
+    positions(y()) = end_.q;
+    velocities(y()) = end_.v;
+    require(ARKStepReset(memory(), end_.t, y()));
+    require(ARKStepSetInitStep(memory(), h));
+    return true;
+  }
+
+  // Before the first step: sets end_ and the accelerations there.
+  void begin_at(double t) {
+    end_ = {t, positions(y()), velocities(y()), Vector(model_.num_dofs())};
+    if (is_split()) {
+      initial_acceleration(*explicit_.model, t, explicit_.at_end);
+      initial_acceleration(*implicit_.model, t, end_.a);
+      end_.a += explicit_.at_end;
+      implicit_.at_end = end_.a - explicit_.at_end;
+    } else {
+      initial_acceleration(model_, t, end_.a);
+      only_part().at_end = end_.a;
+    }
+  }
+
+  // After each step, whose last stage is its end: sets begin_, end_ and the accelerations at end_.
+  void take_end(double t) {
+    std::swap(begin_, end_);
+    end_.t = t;
+    end_.q = positions(y());
+    end_.v = velocities(y());
+    end_.a.resize(model_.num_dofs());
+    if (is_split()) {
+      explicit_.at_end = explicit_.last;
+      end_.a = explicit_.last + implicit_.last;
+      implicit_.at_end = end_.a - explicit_.at_end;
+    } else {
+      if (method_.stiffly_accurate) end_.a = stage_acceleration();
+      else end_.a = only_part().last;
+      only_part().at_end = end_.a;
+    }
+  }
+
+  // dv/dt at the stage that Newton's method solved last.
+  Eigen::Map<Vector> stage_acceleration() const {
+    sunrealtype at, gamma;
+    N_Vector predicted, stage, stage_derivative, data;
+    void* user;
+    require(ARKStepGetNonlinearSystemData(memory(), &at, &predicted, &stage, &stage_derivative, &gamma, &data, &user));
+    return velocities(stage_derivative);
+  }
+
+  int last_order() const override { return main_table().q; }
+  long retries() const override { return retries_; }
+
+  int dense_output(double t, N_Vector out) const override {
+    orthodyn::interpolate(begin_, end_, t, positions(out), velocities(out));
+    return 0;
+  }
+
+  Reason classify(int flag) const override {
+    switch (flag) {
+      case ARK_ERR_FAILURE: return Reason::error_test;
+      case ARK_CONV_FAILURE:
+      case ARK_LSETUP_FAIL:
+      case ARK_LSOLVE_FAIL:
+      case ARK_NLS_SETUP_RECVR: return Reason::newton;
+      case ARK_RHSFUNC_FAIL:
+      case ARK_FIRST_RHSFUNC_ERR:
+      case ARK_REPTD_RHSFUNC_ERR:
+      case ARK_UNREC_RHSFUNC_ERR: return Reason::force;
+      case ARK_TOO_MUCH_ACC: return Reason::diverged;
+      case ARK_TOO_CLOSE: return Reason::step_too_small;
+      default: return Reason::other;
+    }
+  }
+
+  std::size_t own_bytes() const override { return 3 * static_cast<std::size_t>(size()) * sizeof(sunrealtype); }
+
+  // Measurements of these settings are in docs/decisions.md.
+  void use_newton() {
+    void* m = memory();
+    require(ARKStepSetNonlinConvCoef(m, options_.nonlinear_coefficient));
+    require(ARKStepSetMaxNonlinIters(m, options_.max_newton_iterations));
+    if (!model_.traits().smooth) use_nonsmooth_newton();
+    newton_system_->create_first_order(context_, [this] {
+      sunrealtype gamma = 0;
+      ARKStepGetCurrentGamma(memory(), &gamma);
+      return gamma;
+    });
+    attach_linear_solver();
+    require(newton_system_->is_full() ? ARKStepSetJacFn(m, fill_jacobian) : ARKStepSetLinSysFn(m, linearize));
+    // The derivative of a stage is deduced from the solution of the stage. A force evaluated there would multiply the
+    // remaining error of Newton's method by the stiffness, and could fail after convergence.
+    require(ARKStepSetDeduceImplicitRhs(m, SUNTRUE));
+    // Predictor 2 extrapolates early stages with a high order and late stages with a low order. It needs half the
+    // iterations of the library's default predictor, the last solution.
+    require(ARKStepSetPredictorMethod(m, 2));
+    // The convergence rate of earlier iterations is not used. It is nearly zero for a linear model, so Newton's method
+    // would stop after one iteration even if gamma had changed.
+    require(ARKStepSetNonlinCRDown(m, 1));
+  }
+
+  // Callbacks.
+  static ArkStep& self(void* user) { return static_cast<ArkStep&>(*static_cast<SundialsIntegrator*>(user)); }
+
+  ARKRhsFn explicit_callback() const { return explicit_.model ? explicit_right_hand_side : nullptr; }
+  ARKRhsFn implicit_callback() const { return implicit_.model ? implicit_right_hand_side : nullptr; }
+
+  static int explicit_right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
+    auto& me = self(user);
+    if (me.is_split()) positions(y_dot).setZero();
+    else positions(y_dot) = velocities(y);
+    return me.acceleration(me.explicit_, t, y, velocities(y_dot));
+  }
+
+  static int implicit_right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
+    auto& me = self(user);
+    positions(y_dot) = velocities(y);
+    return me.acceleration(me.implicit_, t, y, velocities(y_dot));
+  }
+
+  // Acceleration by one part of the force. At the end of the last step it is known and not evaluated again. The first
+  // stage of the next step needs it there, and a failing force would end the integration.
+  int acceleration(ArkPart& part, double t, N_Vector y, VectorRef a) {
+    bool is_known = false;
+    const int thrown = guarded(callback_context_, [&] {
+      is_known = t == end_.t && model_.space().all(positions(y) == end_.q && velocities(y) == end_.v);
+      if (is_known) a = part.at_end;
+    });
+    if (thrown != 0 || is_known) return thrown;
+    const int flag = evaluate_acceleration(*part.model, t, y, a);
+    part.last = a;
+    return flag;
+  }
+
+  static int linearize(sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype keep,
+                       sunbooleantype* renewed, sunrealtype, void* user, N_Vector, N_Vector, N_Vector) {
+    return self(user).newton_system_->linearize(t, y, keep, renewed);
+  }
+
+  static int fill_jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+    return self(user).newton_system_->fill_jacobian(t, y, J);
+  }
+
+  ArkPart explicit_, implicit_;
+  long retries_ = 0;     // steps restarted because a force could not be evaluated, since the last (re-)start
+  StepEnd begin_, end_;  // ends of the last step
+  std::unique_ptr<void, FreeArkStep> memory_;
+};
 
 }  // namespace
 
-void ArkStep::initialise(double t) {
-  begin_at(t);
-  memory_.reset(ARKStepCreate(parts_.explicit_part, parts_.implicit_part, t, y(), context_));
-  void* m = memory();
-  if (!m) throw RunError("ARKODE could not be created");
-  ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &callback_context_.message);
-  require(ARKStepSetUserData(m, this));
-  require(ARKStepWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
-    ark_step(user).settings_.set_weights(weights);
-    return 0;
-  }));
-  const auto& o = settings_.options;
-  if (o.h0) require(ARKStepSetInitStep(m, *o.h0));
-  if (o.h_max) require(ARKStepSetMaxStep(m, *o.h_max));
-  if (o.h_min > 0) require(ARKStepSetMinStep(m, o.h_min));
-  // Degree 3 is the highest that evaluates no force; it serves predictors alone.
-  require(ARKStepSetInterpolantDegree(m, 3));
-  choose_method();
-}
-
-void ArkStep::reinitialise(double t) {
-  begin_at(t);
-  retries_ = 0;
-  require(ARKStepReInit(memory(), parts_.explicit_part, parts_.implicit_part, t, y()));
-}
-
-void ArkStep::begin_at(double t) {
-  end_ = {t, positions(y()), velocities(y()), Vector(model_.num_dofs())};
-  begin_acceleration(t, end_.a);
-}
-
-int ArkStep::advance(double t_stop, double& t) {
-  if (step_) require(ARKStepSetFixedStep(memory(), length_of_fixed_step(*step_, t_stop - t)));
-  for (int attempt = 0;; ++attempt) {
-    require(ARKStepSetStopTime(memory(), t_stop));
-    sunrealtype reached = t;  // after a failure the time of a stage
-    const int flag = ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
-    if (flag >= 0) take_end(t = reached);
-    if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == kMaxRetries || !retry_with_shorter_step()) return flag;
-  }
-}
-
-// ARKODE gives up where the force fails in an explicit stage: the step is begun anew from its known
-// beginning. False if no shorter one is allowed.
-bool ArkStep::retry_with_shorter_step() {
-  const double h = kRetryFactor * current_step();
-  if (step_ || callback_context_.failure || h < settings_.options.h_min || end_.t + h == end_.t) return false;
-  ++retries_;
-  positions(y()) = end_.q;
-  velocities(y()) = end_.v;
-  require(ARKStepReset(memory(), end_.t, y()));
-  require(ARKStepSetInitStep(memory(), h));
-  return true;
-}
-
-void ArkStep::take_end(double t) {
-  std::swap(begin_, end_);
-  end_.t = t;
-  end_.q = positions(y());
-  end_.v = velocities(y());
-  end_.a.resize(model_.num_dofs());
-  end_acceleration(end_.a);
-}
-
-Eigen::Map<Vector> ArkStep::stage_acceleration() const {
-  sunrealtype at, gamma;
-  N_Vector predicted, stage, stage_derivative, data;
-  void* user;
-  require(ARKStepGetNonlinearSystemData(memory(), &at, &predicted, &stage, &stage_derivative, &gamma, &data, &user));
-  return velocities(stage_derivative);
-}
-
-StepInfo ArkStep::last_step() const {
-  StepInfo info;
-  ARKStepGetLastStep(memory(), &info.h);
-  info.order = order_;
-  return info;
-}
-
-double ArkStep::current_step() const {
-  sunrealtype h = 0;
-  ARKStepGetCurrentStep(memory(), &h);
-  return h;
-}
-
-int ArkStep::dense_output(double t, N_Vector out) const {
-  orthodyn::interpolate(begin_, end_, t, positions(out), velocities(out));
-  return 0;
-}
-
-ArkStep::Counters ArkStep::counters() const {
-  Counters c;
-  ARKStepGetNumSteps(memory(), &c.steps);
-  ARKStepGetNumErrTestFails(memory(), &c.error_test_failures);
-  ARKStepGetNumStepSolveFails(memory(), &c.convergence_failures);
-  c.convergence_failures += retries_;
-  if (settings_.implicit) ARKStepGetNumNonlinSolvIters(memory(), &c.newton_iterations);
-  return c;
-}
-
-Reason ArkStep::classify(int flag) const {
-  switch (flag) {
-    case ARK_ERR_FAILURE: return Reason::error_test;
-    case ARK_CONV_FAILURE:
-    case ARK_LSETUP_FAIL:
-    case ARK_LSOLVE_FAIL:
-    case ARK_NLS_SETUP_RECVR: return Reason::newton;
-    case ARK_RHSFUNC_FAIL:
-    case ARK_FIRST_RHSFUNC_ERR:
-    case ARK_REPTD_RHSFUNC_ERR:
-    case ARK_UNREC_RHSFUNC_ERR: return Reason::force;
-    case ARK_TOO_MUCH_ACC: return Reason::diverged;
-    case ARK_TOO_CLOSE: return Reason::step_too_small;
-    default: return Reason::other;
-  }
-}
-
-std::size_t ArkStep::workspace_bytes() const {
-  long reals = 0, integers = 0;
-  ARKStepGetWorkSpace(memory(), &reals, &integers);
-  return (static_cast<std::size_t>(reals) + 3 * static_cast<std::size_t>(size())) * sizeof(sunrealtype);
-}
-
-// Figures: docs/decisions.md.
-void ArkStep::attach_newton() {
-  void* m = memory();
-  const auto& o = settings_.options;
-  require(ARKStepSetNonlinConvCoef(m, o.nonlinear_coefficient));
-  require(ARKStepSetMaxNonlinIters(m, o.max_newton_iterations));
-  if (!model_.traits().smooth) {
-    newton_.emplace(o.rtol, y(), context_);
-    require(ARKStepSetNonlinearSolver(m, newton_->get()));
-    newton_->replace_test();
-  }
-  settings_.full ? attach_full() : attach_reduced();
-  // The derivative of a stage is taken from its solution: a force evaluated there would multiply what
-  // Newton left by the stiffness, and could fail after Newton has converged.
-  require(ARKStepSetDeduceImplicitRhs(m, SUNTRUE));
-  // Early stages are extrapolated by a high order, late ones by a low one: half the iterations of the
-  // library's own choice, the last solution.
-  require(ARKStepSetPredictorMethod(m, 2));
-  // The rate of convergence is not remembered. On a linear model it is all but zero, and Newton
-  // would take one iteration for enough even after gamma has moved.
-  require(ARKStepSetNonlinCRDown(m, 1));
-}
-
-void ArkStep::attach_reduced() {
-  make_first_order_solver([this] {
-    sunrealtype gamma = 0;
-    ARKStepGetCurrentGamma(memory(), &gamma);
-    return gamma;
-  });
-  require(ARKStepSetLinearSolver(memory(), solver_.get(), matrix_.get()));
-  require(ARKStepSetLinSysFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype jok,
-                                          sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
-                                          N_Vector) { return ark_step(user).linearize_reduced(t, y, jok, jcur); }));
-}
-
-void ArkStep::attach_full() {
-  make_full_solver();
-  require(ARKStepSetLinearSolver(memory(), solver_.get(), matrix_.get()));
-  require(ARKStepSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
-                                       N_Vector) { return ark_step(user).fill_full(t, y, J); }));
+std::unique_ptr<Integrator> make_ark_step(const Model& model, ArkMethod method, const Options& options,
+                                          const Scales& scales) {
+  return std::make_unique<ArkStep>(model, std::move(method), options, scales);
 }
 
 }  // namespace orthodyn::sundials

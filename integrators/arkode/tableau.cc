@@ -6,7 +6,7 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr double kSame = 1e-14;  // coefficients are rounded to double precision
+constexpr double kSame = 1e-14;  // tolerance for equal coefficients, which are rounded to double precision
 
 }  // namespace
 

@@ -1,7 +1,8 @@
-// The Runge-Kutta tables of ARKODE that `table` may name: those of SUNDIALS 6.4.1.
+// The Runge-Kutta tables of ARKODE that the key `table` accepts: those of SUNDIALS 6.4.1.
 //
-// A name ends in stages, order of the embedding (left out where there is none), order. Of the diagonally
-// implicit tables KVAERNO_5_3_4 is left out: its R(infinity) is 0.72 in this release, where the method has 0.
+// A name ends in the number of stages, the order of the embedding (omitted if there is none) and the order of the
+// method. KVAERNO_5_3_4 (diagonally implicit) is excluded: with this release's coefficients its stability function R(z)
+// tends to 0.72 for z -> infinity instead of 0.
 #pragma once
 
 #include <arkode/arkode_butcher_dirk.h>
@@ -63,7 +64,7 @@ struct EnumNames<ARKODE_ERKTableID> {
   }};
 };
 
-// Pairs of an explicit and an implicit table that are used together.
+// An explicit and an implicit table with the same weights.
 struct AdditivePair {
   ARKODE_ERKTableID explicit_part;
   ARKODE_DIRKTableID implicit_part;

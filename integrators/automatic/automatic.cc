@@ -1,8 +1,7 @@
-// `auto`: looks at the model and the task, takes one of the other integrators and says why.
+// `auto`: chooses one of the other integrators for the model and the task, and reports the reason.
 //
-// It knows what comparisons have taught (docs/speed-against-error.md); a comparison of all methods on the scene
-// itself is better founded: `orthodyn compare`. For a linear model it takes `modal` if a trial run
-// shows that few modes suffice.
+// The choice uses measured costs (cost_estimate.h, docs/speed-against-error.md); `orthodyn compare` measures all
+// methods on the scene itself. A linear model gets `modal` if a trial run shows that few modes suffice (modal_plan.h).
 #include <algorithm>
 
 #include "integrators/automatic/modal_plan.h"
@@ -13,16 +12,7 @@
 namespace orthodyn {
 namespace {
 
-struct AutomaticOptions : ErrorControl {
-  SolverChoice linear_solver;
-  std::optional<std::string> method;
-  std::string rationale;
-  std::optional<double> safety;
-  std::optional<int> modes;
-  std::string kept;
-};
-
-// Does what the chosen integrator does, and tells of the choice among its decisions.
+// Forwards to the chosen integrator and adds the choice to its decisions.
 class Automatic : public Integrator {
  public:
   Automatic(std::unique_ptr<Integrator> integrator, MethodChoice choice, const Scales& scales)
@@ -54,23 +44,21 @@ class Automatic : public Integrator {
   Scales scales_;
 };
 
-class AutomaticChoice : public SettableChoice<AutomaticChoice>, public AutomaticOptions {
+class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorControl {
  public:
   static const Spec<AutomaticChoice>& spec() {
     using C = AutomaticChoice;
     static const auto s = [] {
       auto spec = ErrorControl::spec_for<C>();
       return add_linear_solver(spec, SolverPaths::reduced)
-          .key("method", &C::method, "The integrator; if left out, it is chosen for the scene.")
-          .key("because", &C::rationale, "Why it was chosen, in words; written by the program.")
-          .key("safety", &C::safety,
-               "Safety factor of central_differences, if that is the method; written by the program.",
+          .key("method", &C::method, "The integrator; chosen for the scene by default.")
+          .key("because", &C::rationale, "Reason for the choice; written by the program.")
+          .key("safety", &C::safety, "Safety factor, if the method is central_differences; written by the program.",
                {.range = {0, 1, true, true}})
-          .key("modes", &C::modes, "How many modes are kept by modal, if that is the method; written by the program.",
+          .key("modes", &C::modes, "Number of modes kept, if the method is modal; written by the program.",
                {.range = {1}})
           .key("kept", &C::kept,
-               "Modes kept by modal and the share of the motion that they leave out, if that is the method; written by "
-               "the "
+               "Modes kept and the share of the motion that they leave out, if the method is modal; written by the "
                "program.")
           .check([](const C& options, const Config& config) { options.check_method(config); });
     }();
@@ -80,13 +68,13 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     return method_facts("that of the chosen method", "that of the chosen method", "what the chosen method conserves",
                         "docs/speed-against-error.md");
   }
-  // On ranks only methods that run there are chosen; a recorded `modal` is replaced.
+  // On several ranks only methods that run there are chosen; a recorded `modal` is replaced.
   bool runs_on_ranks() const override {
     return !method || *method == "modal" || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     Scales own = scales(task);
-    if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given
+    if (!method && own.omega == 0) own.omega = task.scales().omega;  // needed even if both scales are given
     const MethodChoice choice =
         is_settled(model) ? MethodChoice{*method, rationale, safety, modes} : choose(model, task, own);
     IntegratorSettings wanted = settings();
@@ -98,12 +86,20 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     return std::make_unique<Automatic>(options->make(model, task), choice, own);
   }
 
+  SolverChoice linear_solver;
+  std::optional<std::string> method;
+  std::string rationale;
+  std::optional<double> safety;
+  std::optional<int> modes;
+  std::string kept;
+
  private:
-  // Whether the recorded method is kept. Modes are not if the model is no longer linear, or is distributed over ranks.
+  // True if the recorded method is kept. `modal` is replaced if the model is no longer linear or is distributed over
+  // ranks.
   bool is_settled(const Model& model) const { return method && (*method != "modal" || allows_modes(model)); }
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
-    // central_differences has no error control whose steps could be limited.
+    // central_differences cannot limit its steps by h0, h_min and h_max.
     const bool limits_steps = h0 || h_max || h_min > 0;
     const CostEstimate cost = estimate_cost(model, task, own, linear_solver);
     MethodChoice stepping = choose_method(cost, rtol, limits_steps ? 0 : static_cast<double>(max_steps));
@@ -122,8 +118,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   }
 };
 
-const bool automatic_registered =
-    Registry<IntegratorChoice>::add<AutomaticChoice>("auto", "Chooses one of the others for the scene and says why.");
+const bool automatic_registered = Registry<IntegratorChoice>::add<AutomaticChoice>(
+    "auto", "Chooses one of the other methods for the scene and reports the reason.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -17,31 +17,32 @@ namespace orthodyn {
 
 namespace {
 
-// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces.
+// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle; a tangent takes as long as five
+// forces.
 constexpr double kForce = 2.2, kTangent = 5;
 
-// Error of tr_bdf2 per radian of q'' = -omega^2 q, relative to the amplitude, at rtol 1e-3 with the amplitude as
-// position scale: measured at rtol 1e-2 ... 1e-5 over 10 ... 100 rad, where it goes with rtol^(2/3). The accepted error
-// is kMostPhaseError times rtol.
+// kPhaseError: error of tr_bdf2 per radian of the oscillation q'' = -omega^2 q, relative to the amplitude, at rtol 1e-3
+// with the amplitude as position scale. It was measured at rtol 1e-2 to 1e-5 over 10 to 100 rad and is proportional to
+// rtol^(2/3). An error of up to kMostPhaseError times rtol is accepted.
 constexpr double kPhaseError = 1.2e-3, kMostPhaseError = 20;
 
 double phase_error_of_order_two(const CostEstimate& cost, double rtol) {
   if (!cost.smooth) return 0;
   const double decay = cost.damping_ratio * cost.known_phase;
-  const double phase = decay > 1 ? 1 / cost.damping_ratio : cost.known_phase;  // then the motion is gone
+  const double phase = decay > 1 ? 1 / cost.damping_ratio : cost.known_phase;  // decay > 1: decayed before the end
   return kPhaseError * phase * std::pow(rtol / 1e-3, 2.0 / 3);
 }
 
-// Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
-// step, and tangents with their factors for each step.
+// Measured with an L-stable method of order two at rtol 1e-3: steps per radian of the motion, Newton iterations per
+// step, tangents and factorisations per step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 
-// Number of steps of a method of this order for a phase in rad.
+// Number of steps that a method of this order needs for a phase (rad).
 double steps_for(double phase, double rtol, double order = 2) {
   return 10 + kSteps * phase * std::pow(1e-3 / rtol, 1 / (order + 1));
 }
 
-// Phase (rad) until the motion is damped out; that of the whole run if loads drive it.
+// Phase (rad) until the motion has decayed, or of the whole run if loads drive the motion.
 double moving_phase(const CostEstimate& cost) {
   constexpr double kDecays = 5;
   const double phase = std::max(cost.phase, cost.known_phase);
@@ -66,10 +67,10 @@ CostEstimate estimate_here(const Model& model, const Task& task, const Scales& s
     CriticalStep critical(model, unused);
     cost.explicit_steps = span / critical.at(task.initial);
     if (model.traits().damped) cost.damping_ratio = damping_ratio_of_motion(critical, scales);
-  } catch (const RecoverableError&) {  // the start has its own sentence for it
+  } catch (const RecoverableError&) {  // Integrator::start() reports the error
   }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
-  // Of all ranks together, so that their number does not choose the method.
+  // Totals over all ranks, so that the choice does not depend on the number of ranks.
   const double n = static_cast<double>(model.num_dofs_of_all());
   const double non_zeros = model.space().sum(model.pattern().non_zeros()), force = kForce * non_zeros;
   namespace each = solver_cost;
@@ -92,9 +93,9 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
                            const SolverChoice& linear_solver) {
   CostEstimate cost = estimate_here(model, task, scales, linear_solver);
   if (model.ranks())
-    for (double* figure : {&cost.damping_ratio, &cost.explicit_steps, &cost.phase, &cost.known_phase, &cost.solve_cost,
-                           &cost.factor_cost})
-      model.ranks()->broadcast({figure, 1});
+    for (double* value : {&cost.damping_ratio, &cost.explicit_steps, &cost.phase, &cost.known_phase, &cost.solve_cost,
+                          &cost.factor_cost})
+      model.ranks()->broadcast({value, 1});
   return cost;
 }
 
@@ -109,7 +110,7 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
   const double implicit_steps = steps_for(cost.phase, rtol), step_cost = cost_of_implicit_step(cost);
   const double implicit_cost = implicit_steps * step_cost;
   const double safety = safety_of_central_differences(cost, rtol);
-  const double explicit_cost = cost.explicit_steps / safety;  // a force a step
+  const double explicit_cost = cost.explicit_steps / safety;  // one force per step
   if (explicit_cost < std::min(implicit_cost, most_explicit_steps))
     return {
         "central_differences",
@@ -120,13 +121,15 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
     return MethodChoice{method, std::move(why), std::nullopt, std::nullopt, steps * step_cost};
   };
   if (suits_high_orders(cost.damping_ratio, rtol))
-    return implicit("cvode_bdf", "well damped, where multistep methods of high order take long steps", 4);
+    return implicit("cvode_bdf", "well damped, so multistep methods of high order take long steps", 4);
   if (rtol <= 1e-4)
     return implicit("arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations");
   if (const double error = phase_error_of_order_two(cost, rtol); error > kMostPhaseError * rtol)
-    return implicit("arkode_dirk", fmt::format("hardly damped and {:.2g} periods long, in which a method of order 2 "
-                                               "would be off by {:.1g} of the motion",
-                                               cost.known_phase / (2 * std::numbers::pi), error));
+    return implicit(
+        "arkode_dirk",
+        fmt::format(
+            "hardly damped and {:.2g} periods long, in which a method of order 2 would be off by {:.1g} of the motion",
+            cost.known_phase / (2 * std::numbers::pi), error));
   return implicit("tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest");
 }
 

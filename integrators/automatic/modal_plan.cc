@@ -11,45 +11,46 @@
 namespace orthodyn {
 namespace {
 
-constexpr int kFewest = 20, kMost = 640;  // modes that are looked for
-constexpr double kMostShare = 0.2;        // of the unknowns
-constexpr int kSmall = 100;               // unknowns of which all modes are taken if need be
-constexpr double kMostNumbers = 5e7;      // in the vectors of Lanczos' method
-constexpr double kVectors = 2.5;          // of Lanczos' method, for each mode
-constexpr double kOrthogonal = 0.3;  // cost of an inner product, in forces, times non-zeros over unknowns: measured
-constexpr double kForces = 8;        // and solutions in a step
-constexpr double kProducts = 2;      // of all modes with a vector, for each force
-constexpr double kWorthIt = 0.5;     // of the other method's cost
-constexpr double kVelocity = 10;     // times rtol: of the velocity
-constexpr double kSameForce = 1e-8;  // of the parts of a force
-constexpr double kMostSteps = 1e9;
+constexpr int kMinModes = 20, kMaxModes = 640;
+constexpr double kMaxShare = 0.2;      // largest number of modes per unknown
+constexpr int kSmallModel = 100;       // up to this number of unknowns, all modes may be used
+constexpr double kMaxNumbers = 5e7;    // largest number of entries of all Lanczos vectors
+constexpr double kVectors = 2.5;       // Lanczos vectors per mode
+constexpr double kInnerProduct = 0.3;  // measured: an inner product costs this times unknowns / non-zeros (forces)
+constexpr double kForces = 8;          // forces and solves per step
+constexpr double kProducts = 2;        // products of all modes with a vector, per force
+constexpr double kCostShare = 0.5;     // accepted cost relative to the other method
+constexpr double kVelocity = 10;       // accepted share of the velocity left out, in units of rtol
+constexpr double kSameForce = 1e-8;    // accepted error of the linear force, relative to its parts
+constexpr double kMaxSteps = 1e9;
 
-// Costs in evaluations of the force.
+// Costs of `modal` in force evaluations.
 class ModalCost {
  public:
   ModalCost(const Model& model, const CostEstimate& cost)
-      : cost_(cost), of_product_(kOrthogonal * model.num_dofs() / static_cast<double>(model.pattern().non_zeros())) {}
+      : cost_(cost),
+        product_cost_(kInnerProduct * model.num_dofs() / static_cast<double>(model.pattern().non_zeros())) {}
 
   double search(int modes) const {
     const double vectors = kVectors * modes;
-    return cost_.factor_cost + vectors * (1 + cost_.solve_cost) + of_product_ * vectors * vectors;
+    return cost_.factor_cost + vectors * (1 + cost_.solve_cost) + product_cost_ * vectors * vectors;
   }
-  double step(int modes) const { return kForces * (1 + cost_.solve_cost + kProducts * of_product_ * modes); }
+  double step(int modes) const { return kForces * (1 + cost_.solve_cost + kProducts * product_cost_ * modes); }
 
  private:
   const CostEstimate& cost_;
-  double of_product_;
+  double product_cost_;
 };
 
-int most_modes(const Model& model) {
+int max_modes(const Model& model) {
   const int n = model.num_dofs();
-  if (n <= kSmall) return n;
-  return std::min({kMost, static_cast<int>(kMostShare * n), static_cast<int>(kMostNumbers / kVectors / n)});
+  if (n <= kSmallModel) return n;
+  return std::min({kMaxModes, static_cast<int>(kMaxShare * n), static_cast<int>(kMaxNumbers / kVectors / n)});
 }
 
-// Checks f(t, q, v) = f(t, 0, 0) - K q - D v at a random state: a user's model may claim to be linear although its
-// tangents are approximate.
-bool is_linear_as_it_says(const Model& model, const Task& task) {
+// Checks f(t, q, v) = f(t, 0, 0) - K q - D v at a random state. The check is needed because a user's model may be
+// declared linear although its tangents are approximate.
+bool force_is_linear(const Model& model, const Task& task) {
   const Scales scales = task.scales();
   const auto n = static_cast<Eigen::Index>(model.num_dofs());
   const Vector zero = Vector::Zero(n), direction = random_vector(model);
@@ -75,18 +76,18 @@ bool is_linear_as_it_says(const Model& model, const Task& task) {
 }
 
 std::optional<MethodChoice> search(const Model& model, const Task& task, const CostEstimate& cost,
-                                   const ErrorControl& control, double worth) {
-  const ModalCost of(model, cost);
-  const int most = most_modes(model);
+                                   const ErrorControl& control, double allowed_cost) {
+  const ModalCost modal_cost(model, cost);
+  const int most = max_modes(model);
   double spent = 0;
-  for (int modes = std::min(kFewest, most); modes > 0; modes = std::min(2 * modes, most)) {
-    // The run repeats this search and the steps of the trial.
-    const double left = worth - spent - 2 * of.search(modes);
+  for (int modes = std::min(kMinModes, most); modes > 0; modes = std::min(2 * modes, most)) {
+    // The run repeats the search for modes and the steps of the trial: hence the factor 2.
+    const double left = allowed_cost - spent - 2 * modal_cost.search(modes);
     if (!(left > 0)) return std::nullopt;
-    const auto most_steps = static_cast<long>(std::min(left / 2 / of.step(modes), kMostSteps));
+    const auto most_steps = static_cast<long>(std::min(left / 2 / modal_cost.step(modes), kMaxSteps));
     const auto trial = try_modal(model, task, control, modes, most_steps);
     if (!trial) return std::nullopt;
-    spent += of.search(modes) + static_cast<double>(trial->steps) * of.step(modes);
+    spent += modal_cost.search(modes) + static_cast<double>(trial->steps) * modal_cost.step(modes);
     if (trial->displacement_left_out <= control.rtol && trial->velocity_left_out <= kVelocity * control.rtol)
       return MethodChoice{"modal",
                           fmt::format("the model is linear, and {} modes leave out {:.1g} of the motion", modes,
@@ -105,7 +106,7 @@ std::optional<MethodChoice> plan_modal(const Model& model, const Task& task, con
                                        const ErrorControl& control, const MethodChoice& other) {
   if (!allows_modes(model) || !cost.has_factor) return std::nullopt;
   try {
-    if (is_linear_as_it_says(model, task)) return search(model, task, cost, control, kWorthIt * other.cost);
+    if (force_is_linear(model, task)) return search(model, task, cost, control, kCostShare * other.cost);
   } catch (const ConfigError&) {  // modes cannot be used; `other` can
   } catch (const RunError&) {
   } catch (const RecoverableError&) {

@@ -1,4 +1,4 @@
-// Whether `auto` takes `modal`: the lowest modes of a linear model in place of steps.
+// Decides whether `auto` chooses `modal` for a linear model.
 #pragma once
 
 #include "integrators/automatic/cost_estimate.h"
@@ -6,14 +6,16 @@
 
 namespace orthodyn {
 
-// Whether `modal` could integrate the model at all: it is linear and symmetric, and one process holds it.
+// True if `modal` can integrate the model: it is linear, symmetric and held by one process.
 bool allows_modes(const Model& model);
 
-// `modal` with as many of the lowest modes as a trial run asks for: what they leave out is below rtol of the
-// displacement and below ten times rtol of the velocity. None where the model does not allow modes, where its force is
-// not f(t, 0, 0) - K q - D v, where its modes cannot serve (damping that couples them, an unstable state of rest),
-// where hundreds would be needed, and where modes, trials and run would cost more than half of `other.cost`.
-// Precondition: `other` is the best method that takes steps, with its cost.
+// Returns `modal` with the first number of modes (20, 40, 80, ...) with which a trial run leaves out at most rtol of
+// the displacement and 10 rtol of the velocity. Returns nothing if
+//   the model does not allow modes, its force is not f(t, 0, 0) - K q - D v, or the linear solver is iterative;
+//   its modes cannot be used, because damping couples them or the state of rest is unstable;
+//   more than 640 modes, or a fifth of more than 100 unknowns, would be needed;
+//   computing the modes, the trials and the run would cost more than half of `other.cost`.
+// Precondition: `other` is the best time-stepping method, with its estimated cost.
 std::optional<MethodChoice> plan_modal(const Model& model, const Task& task, const CostEstimate& cost,
                                        const ErrorControl& control, const MethodChoice& other);
 

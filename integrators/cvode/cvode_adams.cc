@@ -1,8 +1,6 @@
-// CVODE's Adams-Moulton methods (Hindmarsh et al. 2005): variable order 1-12, variable step. For smooth,
-// lightly damped motion at tight tolerances; high orders are stable for short steps only.
+// CVODE's Adams-Moulton methods (Hindmarsh et al. 2005): variable order 1-12, variable step. For smooth, lightly damped
+// motion at tight tolerances; high orders are stable only for short steps.
 #include <cvode/cvode.h>
-#include <fmt/format.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "integrators/cvode/cvode.h"
 
@@ -20,56 +18,7 @@ struct EnumNames<StepIteration> {
 namespace sundials {
 namespace {
 
-struct AdamsOptions : Options {
-  StepIteration nonlinear = StepIteration::newton;
-  int anderson = 0;
-  int max_order = 12;
-};
-
-Settings complete(const AdamsOptions& options, const Task& task) {
-  Settings settings = Settings::complete(options, task);
-  settings.implicit = options.nonlinear == StepIteration::newton;
-  return settings;
-}
-
-class CvodeAdams : public Cvode {
- public:
-  CvodeAdams(const Model& model, const AdamsOptions& options, const Task& task)
-      : Cvode("cvode_adams", model, complete(options, task), CV_ADAMS, options.max_order),
-        anderson_(options.anderson) {}
-
- private:
-  void choose_iteration() override {
-    if (settings_.implicit) {
-      attach_newton();
-      return;
-    }
-    fixed_point_.reset(SUNNonlinSol_FixedPoint(y(), anderson_, context_));
-    if (!fixed_point_) throw RunError("SUNDIALS could not create its fixed-point iteration", Reason::out_of_memory);
-    require(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
-  }
-
-  std::string iteration_failure() const override {
-    if (settings_.implicit) return Cvode::iteration_failure();
-    return "the fixed-point iteration does not converge at the smallest step" + cause() +
-           "; set integrator.nonlinear: newton, or lower h_min";
-  }
-
-  int anderson_;
-  Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
-};
-
-void refuse_newton_keys(const AdamsOptions& options, const Config& config) {
-  const AdamsOptions usual;
-  const bool newton = options.nonlinear == StepIteration::newton;
-  if (newton && options.anderson > 0) config.at("anderson").fail("has no meaning with nonlinear: newton; remove it");
-  if (!newton && options.linear_solver != usual.linear_solver)
-    config.at("linear_solver").fail("has no meaning with nonlinear: fixed_point; remove it");
-  if (!newton && options.gauss_newton)
-    config.at("gauss_newton").fail("has no meaning with nonlinear: fixed_point; remove it");
-}
-
-class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOptions {
+class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options {
  public:
   static const Spec<CvodeAdamsChoice>& spec() {
     using C = CvodeAdamsChoice;
@@ -77,11 +26,11 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOp
         Options::spec_for<C>()
             .key("max_order", &C::max_order, "Highest order.", {.range = {1, 12}})
             .key("nonlinear", &C::nonlinear,
-                 "How a step is solved: Newton's method, or fixed-point iteration, which needs no matrix and steps "
-                 "below one over the highest frequency.")
+                 "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix but steps below "
+                 "one over the highest frequency.")
             .key("anderson", &C::anderson,
                  "Earlier iterates that accelerate the fixed-point iteration (Anderson 1965).", {.range = {0, 10}})
-            .check(refuse_newton_keys);
+            .check([](const C& options, const Config& config) { options.check_iteration_keys(config); });
     return s;
   }
   static MethodFacts facts() {
@@ -90,7 +39,24 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOp
   }
   bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
-    return std::make_unique<CvodeAdams>(model, *this, task);
+    CvodeMethod method{"cvode_adams", CV_ADAMS, max_order};
+    if (nonlinear == StepIteration::fixed_point) method.anderson = anderson;
+    return make_cvode(method, model, *this, scales(task));
+  }
+
+  StepIteration nonlinear = StepIteration::newton;
+  int anderson = 0;
+  int max_order = 12;
+
+ private:
+  void check_iteration_keys(const Config& config) const {
+    if (nonlinear == StepIteration::newton) {
+      if (anderson > 0) config.at("anderson").fail("has no meaning with nonlinear: newton; remove it");
+      return;
+    }
+    if (linear_solver != Options().linear_solver)
+      config.at("linear_solver").fail("has no meaning with nonlinear: fixed_point; remove it");
+    if (gauss_newton) config.at("gauss_newton").fail("has no meaning with nonlinear: fixed_point; remove it");
   }
 };
 

@@ -2,24 +2,15 @@
 #include <cvode/cvode.h>
 
 #include "integrators/cvode/cvode.h"
-#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/bdf_order.h"
 
 namespace orthodyn::sundials {
 namespace {
 
-class CvodeBdf : public Cvode {
- public:
-  CvodeBdf(const Model& model, const MultistepSettings& settings)
-      : Cvode("cvode_bdf", model, settings, CV_BDF, settings.max_order) {}
-
- private:
-  void choose_iteration() override { attach_newton(); }
-};
-
-class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public MultistepOptions {
+class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options {
  public:
   static const Spec<CvodeBdfChoice>& spec() {
-    static const auto s = MultistepOptions::spec_for<CvodeBdfChoice>();
+    static const auto s = bdf_spec<CvodeBdfChoice>();
     return s;
   }
   static MethodFacts facts() {
@@ -29,8 +20,12 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public MultistepOp
   }
   bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
-    return std::make_unique<CvodeBdf>(model, MultistepSettings::complete(*this, model, task));
+    const Scales sizes = scales(task);
+    const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
+    return make_cvode({"cvode_bdf", CV_BDF, order}, model, *this, sizes);
   }
+
+  std::optional<int> max_order;
 };
 
 const bool cvode_bdf_registered = Registry<IntegratorChoice>::add<CvodeBdfChoice>(

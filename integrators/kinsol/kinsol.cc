@@ -1,12 +1,12 @@
 #include "integrators/kinsol/kinsol.h"
 
+#include <fmt/format.h>
 #include <kinsol/kinsol.h>
 #include <kinsol/kinsol_ls.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/kinsol/failure_sentence.h"
 #include "integrators/kinsol/path_stiffness.h"
 #include "integrators/random_vector.h"
 #include "integrators/sundials/callbacks.h"
@@ -19,11 +19,33 @@ struct FreeKinsol {
   void operator()(void* memory) const { KINFree(&memory); }
 };
 
-constexpr double kRoundOff = 1e-11;  // of the motion
+constexpr double kSolutionRoundOff = 1e-11;  // round-off of a solution, relative to the motion
 
 Vector unit_random_vector(const Model& model) {
   const Vector b = random_vector(model);
   return b / model.space().norm(b);
+}
+
+// Explains a flag of KINSol(), with the key that may help.
+std::string failure_message(int flag, const KinsolOptions& options, bool stiffness_is_exact,
+                            const CallbackContext& context) {
+  const std::string cause = context.recoverable_cause.empty() ? "" : " (" + context.recoverable_cause + ")";
+  const std::string approximate = stiffness_is_exact
+                                      ? ""
+                                      : ", by a stiffness that is approximate: take elasticity.warped_tangent: "
+                                        "unsymmetric and statics.solver.linear_solver: klu";
+  switch (flag) {
+    case KIN_MAXITER_REACHED:
+      return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations){}",
+                         options.max_iterations, approximate);
+    case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract" + approximate + cause;
+    case KIN_LSETUP_FAIL: return "the stiffness is singular";
+    case KIN_FIRST_SYSFUNC_ERR:
+    case KIN_SYSFUNC_FAIL:
+    case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
+    case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
+    default: return "KINSOL says: " + context.message;
+  }
 }
 
 class Kinsol : public EquilibriumSolver {
@@ -34,7 +56,7 @@ class Kinsol : public EquilibriumSolver {
         n_(path.num_dofs()),
         task_(task),
         options_(options),
-        still_(Vector::Zero(n_)),
+        zero_velocity_(Vector::Zero(n_)),
         stiffness_(path, options.linear_solver, statistics_),
         probe_(unit_random_vector(path)),
         unknowns_(make_vector(path.num_dofs() + 1, context_, path.ranks())),
@@ -52,7 +74,7 @@ class Kinsol : public EquilibriumSolver {
     before_ = before;
     plane_ = &plane;
     descends_ = false;
-    constexpr double kUnlimited = 1e12;  // of the motion's size
+    constexpr double kUnlimited = 1e12;  // relative to the motion
     return run(point, kUnlimited);
   }
 
@@ -65,7 +87,7 @@ class Kinsol : public EquilibriumSolver {
 
   std::optional<Response> respond(const PathPoint& at) override {
     try {
-      stiffness_.exact(at.lambda, at.q);
+      stiffness_.linearize(at.lambda, at.q, TangentKind::exact);
       if (!stiffness_.factor_with_inertia()) return std::nullopt;
       Response response{Vector(n_), std::nullopt, Vector(n_), 0};
       stiffness_.solve(rate(at), response.rate);
@@ -106,7 +128,7 @@ class Kinsol : public EquilibriumSolver {
       attempt.residual = space_.largest_entry(force(point));
       attempt.above_tolerance = !within_tolerance;
     } else {
-      attempt.failure_reason = failure_sentence(flag, options_, path_.traits().exact_stiffness, callback_context_);
+      attempt.failure_reason = failure_message(flag, options_, path_.traits().exact_stiffness, callback_context_);
     }
     return attempt;
   }
@@ -123,9 +145,9 @@ class Kinsol : public EquilibriumSolver {
       const int thrown = guarded(callback_context_, [&] { good = correct(view(b), view(dx)); });
       return thrown ? thrown : good ? 0 : 1;
     };
-    plug_ = make_placeholder_matrix(context_);
+    placeholder_ = make_placeholder_matrix(context_);
     solver_ = make_solver_adapter(functions_, context_);
-    require(KINSetLinearSolver(m, solver_.get(), plug_.get()));
+    require(KINSetLinearSolver(m, solver_.get(), placeholder_.get()));
     require(KINSetJacFn(
         m, [](N_Vector x, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) { return self(user).linearize(x); }));
     require(KINSetMaxSetupCalls(m, 1));
@@ -140,7 +162,7 @@ class Kinsol : public EquilibriumSolver {
     if (flag < 0) throw RunError("kinsol refused its set-up: " + callback_context_.message);
   }
 
-  // How far from the plane.
+  // Left side of the plane's equation at x.
   double distance(const ConstVectorRef& x) const {
     const double along = plane_->lambda * (x[n_] - guess_.lambda);
     return plane_->q ? along + space_.dot(*plane_->q, x.head(n_) - guess_.q) : along;
@@ -151,7 +173,7 @@ class Kinsol : public EquilibriumSolver {
       const Measure measure(statistics_.force);
       auto out = view(residual);
       const auto at = view(x);
-      path_.force(at[n_], at.head(n_), still_, out.head(n_));
+      path_.force(at[n_], at.head(n_), zero_velocity_, out.head(n_));
       if (!space_.is_finite(out.head(n_))) throw RecoverableError("the force is not finite");
       out = -out;
       out[n_] = distance(at);
@@ -162,9 +184,9 @@ class Kinsol : public EquilibriumSolver {
     return guarded(callback_context_, [&] {
       const auto at = view(x);
       if (descends_) {
-        stiffness_.semidefinite(at[n_], at.head(n_));
+        stiffness_.linearize(at[n_], at.head(n_), TangentKind::gauss_newton);
       } else {
-        stiffness_.mixed(before_.lambda, before_.q, at[n_], at.head(n_));
+        stiffness_.linearize_mixed(before_.lambda, before_.q, at[n_], at.head(n_));
         before_ = {at.head(n_), at[n_]};
       }
     });
@@ -179,7 +201,7 @@ class Kinsol : public EquilibriumSolver {
     return thrown ? thrown : regular ? 0 : 1;
   }
 
-  // dx = -J^-1 r, b = -r; whether Newton's method is to go on.
+  // Solves J dx = b, where b is the negative residual. False if Newton's method must stop.
   bool correct(const ConstVectorRef& b, VectorRef dx) {
     auto dq = dx.head(n_);
     stiffness_.solve(b.head(n_), dq);
@@ -200,7 +222,7 @@ class Kinsol : public EquilibriumSolver {
     return descends_ || k == 0 || correction <= corrections_[k - 1];
   }
 
-  // df_lambda/dlambda: forces are evaluated for it where supports move or loads follow the body.
+  // df_lambda/dlambda. If supports move or loads follow the body, this evaluates forces.
   Vector rate(const PathPoint& at) {
     if (path_.has_constant_rate()) return path_.rate(at.lambda, at.q);
     const Measure measure(statistics_.force);
@@ -209,24 +231,25 @@ class Kinsol : public EquilibriumSolver {
 
   Vector force(const PathPoint& at) const {
     Vector f(n_);
-    path_.force(at.lambda, at.q, still_, f);
+    path_.force(at.lambda, at.q, zero_velocity_, f);
     return f;
   }
 
-  // Whether one more Newton step would change next to nothing. One by an approximate K may be short far from there.
+  // True if one more Newton step, with the exact K, would be negligible. A short step with an approximate K proves
+  // nothing about the solution.
   bool is_settled() {
     try {
       const auto x = view(unknowns_.get());
       const PathPoint at{x.head(n_), x[n_]};
       const Vector f = force(at);
       if (!space_.is_finite(f)) return false;
-      stiffness_.exact(at.lambda, at.q);
+      stiffness_.linearize(at.lambda, at.q, TangentKind::exact);
       if (!stiffness_.factor()) return false;
       Vector correction(n_);
       stiffness_.solve(f, correction);
       const double motion = std::max(space_.largest_entry(at.q), 1e-3 * task_.length);
       return space_.largest_entry(correction) <=
-             std::max(path_.traits().exact_stiffness ? options_.rtol : 0, kRoundOff) * motion;
+             std::max(path_.traits().exact_stiffness ? options_.rtol : 0, kSolutionRoundOff) * motion;
     } catch (const RecoverableError&) {
       return false;
     }
@@ -238,19 +261,19 @@ class Kinsol : public EquilibriumSolver {
   EquilibriumTask task_;
   KinsolOptions options_;
   Statistics statistics_;
-  Vector still_;  // velocities
+  Vector zero_velocity_;
   PathStiffness stiffness_;
   Vector probe_;
   const PathPlane* plane_ = nullptr;
   PathPoint guess_;
-  PathPoint before_;  // the iterate before the present one
+  PathPoint before_;  // the previous iterate; at first the last equilibrium
   bool descends_ = false;
-  std::vector<double> corrections_;  // the largest of each iteration
+  std::vector<double> corrections_;  // largest entry of each iteration's correction
   CallbackContext callback_context_;
   SolverFunctions functions_;
   Context context_;
-  OwnedVector unknowns_, position_weights_, force_weights_;  // of several ranks each has the load factor
-  OwnedMatrix plug_;
+  OwnedVector unknowns_, position_weights_, force_weights_;  // every rank holds the load factor
+  OwnedMatrix placeholder_;
   OwnedSolver solver_;
   std::unique_ptr<void, FreeKinsol> memory_;
 };

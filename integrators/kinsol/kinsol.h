@@ -1,17 +1,20 @@
-// KINSOL's Newton iteration (Hindmarsh et al. 2005) for the unknowns (q, lambda): -f_lambda(q) = 0 on a plane
+// KINSOL's Newton iteration (Hindmarsh et al. 2005) for the unknowns (q, l) = (positions, load factor): f_l(q) = 0 on
+// the plane a.(q - q*) + b (l - l*) = 0 through the guess (q*, l*). A correction (dq, dl) satisfies
 //
-//     [ K    -f' ] [dq]   [ f                ]
-//     [ a^T   b  ] [dl] = [ -a.(q - q*) - b (l - l*) ],    f' = df_lambda/dlambda,
+//     [ K    -p ] [dq]   [ f_l                      ]
+//     [ a^T   b ] [dl] = [ -a.(q - q*) - b (l - l*) ],    p = df_l/dl,
 //
-// by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K, factored each time, is the mixed one
-// (Model::linearize_mixed), with which straight steps of slender bodies may be long. Corrections must contract
-// (Deuflhard, Newton Methods for Nonlinear Problems, 2004), else a solution is not one that the guess leads to. That
-// the residual falls is not asked for: it rises first, by the stretching that a straight step brings.
+// and is found by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K is the mixed stiffness
+// (Model::linearize_mixed), which permits long straight steps of slender bodies. It is factored in every iteration.
+// Corrections must not grow (Deuflhard, Newton Methods for Nonlinear Problems, 2004); otherwise the solution might lie
+// on another path. The residual need not decrease: it rises at first, because a straight step stretches the body.
 //
-// Down the energy: with the positive semidefinite part of K, each correction at most as long as the motion's size.
+// descend() uses the positive semidefinite part of K and limits the root mean square of each correction to the size of
+// the motion.
 //
-// Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
-// where Newton's next correction is below the tolerance of the motion, or round-off itself, and the attempt says so.
+// Round-off of large internal forces may keep the residual above its tolerance. A state is then accepted, with
+// Attempt::above_tolerance set, if the next Newton correction relative to the motion is below rtol (only if K is exact)
+// or below round-off.
 #pragma once
 
 #include <memory>
@@ -23,12 +26,12 @@
 namespace orthodyn::sundials {
 
 struct KinsolOptions {
-  double rtol = 1e-8;
+  double rtol = 1e-8;  // largest residual / EquilibriumTask::force
   long max_iterations = 50;
   SolverChoice linear_solver;
 };
 
-// Throws ConfigError if the linear solver does not take the path's matrices. `path` must outlive it.
+// Throws ConfigError if the linear solver does not accept the path's matrices. `path` must outlive the solver.
 std::unique_ptr<EquilibriumSolver> make_kinsol(const LoadPath& path, const EquilibriumTask& task,
                                                const KinsolOptions& options);
 

@@ -24,8 +24,8 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
   }
   static MethodFacts facts() {
     return {{"source",
-             "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
-             "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
+             "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; Magisano, Leonetti & Garcea, "
+             "CMAME 313, 2017"}};
   }
   bool takes_unsymmetric() const override { return solver_registry().at(linear_solver.type).takes_general; }
   std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const override {
@@ -34,7 +34,7 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
 };
 
 const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol", "KINSOL: Newton's method with stresses carried along, K factored anew each time.");
+    "kinsol", "KINSOL: Newton's method with the mixed stiffness, factored in each iteration.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

@@ -7,7 +7,8 @@
 namespace orthodyn {
 
 namespace {
-// Of an iterative solver. Newton's method mends the rest; next to a critical point no better one can be had.
+// Relative tolerance of an iterative solver. Newton's method removes the remaining error. Near a critical point a
+// smaller tolerance is not reached.
 constexpr double kTolerance = 1e-6;
 }  // namespace
 
@@ -22,33 +23,27 @@ PathStiffness::PathStiffness(const Model& model, const SolverChoice& solver, Sta
   values_.resize(model.pattern().row.size());
 }
 
-void PathStiffness::exact(double lambda, const ConstVectorRef& q) {
+void PathStiffness::linearize(double lambda, const ConstVectorRef& q, TangentKind kind) {
   const Measure measure(statistics_.tangent);
   q_ = q;
-  model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::exact, linearization_);
+  model_.linearize(lambda, q, Vector::Zero(q.size()), kind, linearization_);
 }
 
-void PathStiffness::mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
-                          const ConstVectorRef& q) {
+void PathStiffness::linearize_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
+                                    const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
   q_ = q;
   model_.linearize_mixed(lambda_before, q_before, lambda, q, linearization_);
-}
-
-void PathStiffness::semidefinite(double lambda, const ConstVectorRef& q) {
-  const Measure measure(statistics_.tangent);
-  q_ = q;
-  model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::gauss_newton, linearization_);
 }
 
 bool PathStiffness::factor() {
   if (constant_is_factored_) return true;
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
-  // Where the last K was indefinite this one is likely to be.
-  const bool done = !model_.pattern().symmetric                        ? factor_general()
-                    : negative_.value_or(0) > 0 || resists_iterations_ ? factor_indefinite()
-                                                                       : factor_definite();
+  // If the last K was indefinite, this one probably is, too.
+  const bool done = !model_.pattern().symmetric                      ? factor_general()
+                    : negative_.value_or(0) > 0 || iteration_failed_ ? factor_indefinite()
+                                                                     : factor_definite();
   constant_is_factored_ = done && model_.traits().linear;
   return done;
 }
@@ -95,16 +90,16 @@ void PathStiffness::solve(const ConstVectorRef& b, VectorRef x) {
     const Measure measure(statistics_.factorization);
     constant_is_factored_ = false;
     if (!factor_indefinite()) throw;
-    resists_iterations_ = negative_ == 0;
+    iteration_failed_ = negative_ == 0;
   }
   const Measure measure(statistics_.solve);
   used_->solve(b, x);
 }
 
 std::string PathStiffness::description() const {
-  const char* const instead = resists_iterations_ ? ", L D L^T where it did not converge"
-                              : indefinite_       ? ", L D L^T where the stiffness is indefinite"
-                                                  : "";
+  const char* const instead = iteration_failed_ ? ", L D L^T where it did not converge"
+                              : indefinite_     ? ", L D L^T where the stiffness is indefinite"
+                                                : "";
   return solver_->description() + instead;
 }
 

@@ -1,6 +1,6 @@
-// K of a path of equilibria and its factor: exact, mixed (Model::linearize_mixed) or positive semidefinite. Where the
-// solver asked for finds K indefinite, as past a limit point, or does not converge, L D L^T takes its place. Not
-// thread-safe.
+// The stiffness K on a path of equilibria, and its factor. K is exact, mixed (Model::linearize_mixed) or positive
+// semidefinite. If the chosen solver does not converge or finds K indefinite, as happens past a limit point, an L D L^T
+// solver replaces it. Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -15,24 +15,27 @@ namespace orthodyn {
 
 class PathStiffness {
  public:
-  // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics` must outlive this.
+  // Throws ConfigError if the solver does not accept the model's matrices. `model` and `statistics` must outlive this
+  // object.
   PathStiffness(const Model& model, const SolverChoice& solver, Statistics& statistics);
 
-  // K at q, m, under load factor lambda. Throw RecoverableError where the model does.
-  void exact(double lambda, const ConstVectorRef& q);
-  void mixed(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q);
-  void semidefinite(double lambda, const ConstVectorRef& q);
+  // Set K at q (m) and load factor lambda. The mixed K also uses the previous iterate (q_before, lambda_before). Both
+  // throw the model's RecoverableError.
+  void linearize(double lambda, const ConstVectorRef& q, TangentKind kind);
+  void linearize_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q);
 
-  // False where K is singular. Throws RunError if memory does not suffice.
+  // Factors K. False if K is singular. Throws RunError if memory is short.
   bool factor();
-  // The same with a solver that tells the negative eigenvalues.
+  // As factor(), but a symmetric K is factored by L D L^T if the chosen solver is direct and would not notice negative
+  // eigenvalues.
   bool factor_with_inertia();
 
-  // Of the last factor; of an unsymmetric K 1 if their number is odd, else 0. None where its solver does not tell.
+  // Number of negative eigenvalues of the last factored K; for an unsymmetric K, 1 if this number is odd and 0 if it is
+  // even. Empty if unknown.
   std::optional<int> negative_eigenvalues() const { return negative_; }
 
-  // x = K^-1 b. Throws RecoverableError where an iterative solver does not converge. Precondition: the last factor()
-  // was true.
+  // Solves K x = b. Throws RecoverableError if an iterative solver does not converge and L D L^T fails, too.
+  // Precondition: the last factor() returned true.
   void solve(const ConstVectorRef& b, VectorRef x);
 
   std::size_t factor_bytes() const;
@@ -47,10 +50,10 @@ class PathStiffness {
   Statistics& statistics_;
   std::unique_ptr<LinearSolver> solver_, indefinite_;
   bool constant_is_factored_ = false;
-  bool resists_iterations_ = false;  // a definite K did: the others are like it
+  bool iteration_failed_ = false;  // failed on a definite K; L D L^T is used from then on
   std::optional<int> negative_;
   LinearSolver* used_ = nullptr;  // holds the last factor
-  Vector q_;                      // where K was taken
+  Vector q_;                      // position at which K was computed
   Linearization linearization_;
   std::vector<double> values_;
 };

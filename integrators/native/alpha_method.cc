@@ -6,7 +6,7 @@
 namespace orthodyn {
 
 namespace {
-constexpr double kMostGrowth = 2;  // of the step, that w follows
+constexpr double kMaxGrowth = 2;  // largest growth of the step for which w is shifted
 }
 
 int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e-12 ? 2 : 1; }
@@ -16,12 +16,12 @@ AlphaMethod::AlphaMethod(const std::string& name, const Model& model, const Newt
     : OneStep(name, model, options, scales),
       p_(parameters),
       solver_(model, options, norm_, statistics_),
-      past_(model.space()) {}
+      predictor_(model.space()) {}
 
 void AlphaMethod::restarted() {
   solver_.restart();
-  past_.clear();
-  past_.add(now().t, now().a);
+  predictor_.clear();
+  predictor_.add(now().t, now().a);
   w_ = now().a;
   last_h_ = 0;
 }
@@ -30,9 +30,9 @@ bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
   const StepEnd& from = now();
   w0_ = w_;
-  // From a short step's change no long one's can be told.
-  if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (std::min(h / last_h_, kMostGrowth) - 1) * last_change_;
-  const double share = (1 - alpha_f) / (1 - alpha_m);  // w1 = share x1 + what is known
+  // The change over a short step cannot be extrapolated to a much longer step: hence kMaxGrowth.
+  if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (std::min(h / last_h_, kMaxGrowth) - 1) * last_change_;
+  const double share = (1 - alpha_f) / (1 - alpha_m);  // w1 = share x1 + known terms
   w1_ = (alpha_f * from.a - alpha_m * w0_) / (1 - alpha_m);
   stage_.t = from.t + h;
   stage_.q = from.q + h * from.v + h * h * ((0.5 - beta) * w0_ + beta * w1_);
@@ -41,16 +41,16 @@ bool AlphaMethod::attempt(double h) {
   stage_.w_d = gamma * share * h;
 
   next_.a.resize(from.a.size());
-  past_.predict(stage_.t, next_.a);
+  predictor_.predict(stage_.t, next_.a);
   solver_.begin_step();
   if (!solver_.solve(stage_, next_.a, next_.q, next_.v)) return false;
   w1_ += share * next_.a;
   return true;
 }
 
-// The local errors by Taylor's formula, q''' and q'''' from differences of accelerations: of q as Zienkiewicz & Xie
-// (1991) for Newmark, Hulbert & Jang (1995) for this family; of v likewise. In the first step, where no second
-// difference is known, the first one stands for it, which is larger.
+// Estimates the local errors by Taylor's formula, with q''' and q'''' from differences of accelerations (Zienkiewicz &
+// Xie 1991 for Newmark, Hulbert & Jang 1995 for this family). In the first step the first difference, which is larger,
+// replaces the unknown second difference.
 void AlphaMethod::estimate(double h, VectorRef e_q, VectorRef e_v) {
   const double theta = p_.theta(), gamma = p_.gamma;
   const double lag = 0.5 * (1 - p_.alpha_f - theta * theta - (1 - p_.alpha_m) * (1 + 2 * theta));
@@ -68,11 +68,11 @@ void AlphaMethod::accepted(double h) {
   last_change_ = w1_ - w0_;
   w_ = w1_;
   last_h_ = h;
-  past_.add(next_.t, next_.a);
+  predictor_.add(next_.t, next_.a);
 }
 
 std::size_t AlphaMethod::method_bytes() const {
-  return solver_.bytes() + past_.bytes() + 6 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
+  return solver_.bytes() + predictor_.bytes() + 6 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
 }
 
 }  // namespace orthodyn

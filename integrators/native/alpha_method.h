@@ -1,17 +1,19 @@
-// The generalised-alpha family (Chung & Hulbert 1993), in the form of Arnold & Bruels (2007): Newmark's formulas with
-// an acceleration w of the scheme's own, which follows that of the solution, x.
+// The generalised-alpha family (Chung & Hulbert 1993) in the form of Arnold & Bruels (2007): Newmark's formulas with an
+// auxiliary acceleration w, which follows the acceleration x of the solution. Indices 0 and 1 denote the ends of a step
+// h. With the weighted mean [y1, y0]_c = (1 - c) y1 + c y0,
 //
-//   q1 = q0 + h v0 + h^2 ((1/2 - beta) w0 + beta w1),    v1 = v0 + h ((1 - gamma) w0 + gamma w1)
-//   [w1, w0]_m = [x1, x0]_f,    M x = f(t, q, v),        [y1, y0]_k = (1 - alpha_k) y1 + alpha_k y0
+//   q1 = q0 + h v0 + h^2 ((1/2 - beta) w0 + beta w1),    v1 = v0 + h ((1 - gamma) w0 + gamma w1),
+//   [w1, w0]_alpha_m = [x1, x0]_alpha_f,    M x = f(t, q, v).
 //
-// The blend of forces, not the force of a blended state (Erlicher, Bonaventura & Bursi 2002): a stiff body that turns
-// is in between smaller than it is, and its false stresses add energy. With theta = alpha_m - alpha_f, w is the
-// solution's acceleration at t + theta h (Jansen, Whiting & Hulbert 2000), but for a share of (-alpha_m / (1 -
-// alpha_m))^n n steps after a start; when h changes, it is moved there (Bruels & Arnold 2008). Second order for gamma =
-// 1/2 - theta.
+// Forces are averaged, not states (Erlicher, Bonaventura & Bursi 2002). A stiff body at the average of two rotated
+// positions would be too small, and the spurious stresses would add energy.
+//
+// w approximates the solution's acceleration at t + theta h, theta = alpha_m - alpha_f (Jansen, Whiting & Hulbert
+// 2000). At a start w = x; each step multiplies this initial error by -alpha_m / (1 - alpha_m). When h changes, w is
+// shifted to the new time t + theta h (Bruels & Arnold 2008). The order is 2 if gamma = 1/2 - theta, else 1.
 #pragma once
 
-#include "integrators/native/accelerations.h"
+#include "integrators/native/acceleration_predictor.h"
 #include "integrators/native/one_step.h"
 #include "integrators/native/stage_solver.h"
 
@@ -44,10 +46,10 @@ class AlphaMethod : public OneStep {
   AlphaParameters p_;
   StageSolver solver_;
   StageSolver::Stage stage_;
-  Accelerations past_;  // x at the ends of steps
-  Vector w_, w0_, w1_;  // at now(), moved to where this step needs it, at the step's end
-  double last_h_ = 0;   // 0 after a restart
-  Vector last_change_;  // w1_ - w0_ of the last step
+  AccelerationPredictor predictor_;  // predicts x from its values at the ends of steps
+  Vector w_, w0_, w1_;               // w at now(); w at now(), shifted for the current h; w at the end of the step
+  double last_h_ = 0;                // s; 0 after a restart
+  Vector last_change_;               // w1_ - w0_ of the last step
 };
 
 }  // namespace orthodyn

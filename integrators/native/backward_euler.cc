@@ -4,7 +4,7 @@
 namespace orthodyn {
 namespace {
 
-// The local error is half the difference of the slopes at both ends: that to the trapezoidal rule.
+// The error estimate is the difference from the trapezoidal rule: h/2 times the difference of the slopes at both ends.
 DirkTable backward_euler() { return {1, 2, {0, 1}, {{0, 1}}, {0.5, -0.5}}; }
 
 class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public NewtonOptions {
@@ -24,7 +24,7 @@ class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public N
 };
 
 const bool backward_euler_registered = Registry<IntegratorChoice>::add<BackwardEulerChoice>(
-    "backward_euler", "Backward Euler, solved to the end by Newton's method; adaptive or with a fixed step.");
+    "backward_euler", "Backward Euler with Newton's method; adaptive or with a fixed step.");
 
 }  // namespace
 }  // namespace orthodyn

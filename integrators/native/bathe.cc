@@ -1,5 +1,5 @@
-// Bathe's method with the spectral radius at infinity as its parameter (Noh & Bathe 2019).
-#include "integrators/native/composite_table.h"
+// Bathe's method, whose parameter is the spectral radius for infinitely fast oscillations (Noh & Bathe 2019).
+#include "integrators/native/dirk.h"
 
 namespace orthodyn {
 namespace {
@@ -12,9 +12,11 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
     using C = BatheChoice;
     static const auto s =
         NewtonOptions::spec_for<C>()
-            .key("rho_inf", &C::rho_inf, "What a step leaves of the fastest oscillations: 0 all damped, 1 none.",
+            .key("rho_inf", &C::rho_inf,
+                 "Factor by which a step reduces the fastest oscillations: 0 removes them, 1 keeps them.",
                  {.range = {0, 1}})
-            .key("splitting", &C::splitting, "Where in the step the trapezoidal part ends.", {.range = {0.01, 0.99}});
+            .key("splitting", &C::splitting, "End of the trapezoidal part, as a fraction of the step.",
+                 {.range = {0.01, 0.99}});
     return s;
   }
   static MethodFacts facts() {

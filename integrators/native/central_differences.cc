@@ -1,27 +1,27 @@
-// Central differences as kick-drift-kick leapfrog, explicit, of order 2, one force a step:
+// Central differences as kick-drift-kick leapfrog: explicit, order 2, one force per step.
 //
 //   q1 = q + h v + h^2/2 a,   a1 = M^-1 f(t + h, q1, v + h a),   v1 = v + h/2 (a + a1).
 //
-// A velocity-dependent force is evaluated at the predicted velocity v + h a, which keeps order 2 without a
-// matrix, for the smaller limit of critical_step.h: damping costs steps. Without it the map is symplectic and
-// energy stays bounded. A consistent mass costs a solve a step (Newmark 1959, beta = 0; Verlet 1967; Hughes
-// 1987, 9.1).
+// A velocity-dependent force is evaluated at the predicted velocity v + h a. This keeps order 2 without a matrix but
+// lowers the stability limit (critical_step.h), so damping costs steps. Without damping the map is symplectic and the
+// energy stays bounded. A consistent mass costs one solve per step. Sources: Newmark 1959 (beta = 0); Verlet 1967;
+// Hughes 1987, 9.1.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
+#include "integrators/critical_step.h"
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
 #include "integrators/native/explicit_step.h"
-#include "integrators/native/stability_watch.h"
-#include "lib/config/auto_or.h"
+#include "lib/config/values.h"
 
 namespace orthodyn {
 namespace {
 
-// The longest side of what moves, m; infinite where the model has no shape.
+// Longest side of the model's bounding box, m; infinite if the model has no points.
 double extent(const Model& model) {
   const auto points = model.geometry().points;
   if (points.empty()) return std::numeric_limits<double>::infinity();
@@ -33,6 +33,45 @@ double extent(const Model& model) {
   return (high - low).maxCoeff();
 }
 
+// Monitors the critical step while the stiffness changes.
+//
+// The critical step is recomputed (one tangent and a few matrix products) after an interval of steps. The interval
+// grows by half if the critical step has changed by less than 0.5 % and is halved if it has changed by more than 2 %. A
+// constant stiffness is evaluated once. Not thread-safe: one object per integrator.
+class CriticalStepMonitor {
+ public:
+  // Both arguments must outlive this object.
+  CriticalStepMonitor(const Model& model, Statistics& statistics)
+      : constant_(model.traits().linear), critical_step_(model, statistics) {}
+
+  // Recomputes the critical step at a state. Throws the model's RecoverableError.
+  void update(const State& state) {
+    if (constant_ && step_ > 0) return;
+    const double before = step_;
+    step_ = critical_step_.at(state);
+    if (interval_ == 0) interval_ = kFirstInterval;
+    else if (const double change = std::abs(step_ / before - 1); change > kLargeChange) interval_ /= 2;
+    else if (change < kSmallChange) interval_ += interval_ / 2;
+    left_ = interval_ = std::clamp(interval_, kShortestInterval, kLongestInterval);
+  }
+
+  // Counts a step. True if update() is due.
+  bool due() { return !constant_ && --left_ <= 0; }
+
+  // Critical step (s) at the last update; infinite without stiffness and damping.
+  double critical() const { return step_; }
+  bool expects_contact() const { return critical_step_.reserve() > 0; }
+
+ private:
+  static constexpr int kFirstInterval = 50, kShortestInterval = 20, kLongestInterval = 800;
+  static constexpr double kSmallChange = 0.005, kLargeChange = 0.02;
+
+  bool constant_;
+  CriticalStep critical_step_;
+  double step_ = 0;
+  int interval_ = 0, left_ = 0;  // steps
+};
+
 struct CentralOptions {
   AutoOr<double> step;  // s
   double safety = 0.9;
@@ -42,9 +81,9 @@ struct CentralOptions {
 class CentralDifferences : public ExplicitStep {
  public:
   CentralDifferences(const Model& model, const Task& task, const CentralOptions& options)
-      : ExplicitStep(model, words(options), 2, options.max_steps),
+      : ExplicitStep(model, remedies(options), 2, options.max_steps),
         options_(options),
-        watch_(model, statistics_),
+        monitor_(model, statistics_),
         unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t),
         extent_(extent(model)) {
     check_start(task);
@@ -64,42 +103,43 @@ class CentralDifferences : public ExplicitStep {
   }
 
  private:
-  static Words words(const CentralOptions& options) {
+  static Remedies remedies(const CentralOptions& options) {
     if (options.step.value) return {"central_differences", "lower integrator.step, set it to auto,", "integrator.step"};
     return {"central_differences", "lower integrator.safety", "integrator.safety"};
   }
 
   void check_start(const Task& task) {
     try {
-      watch_.update(task.initial);
+      monitor_.update(task.initial);
     } catch (const RecoverableError& e) {
       throw ConfigError(fmt::format(
           "central_differences needs the stiffness at the start, which could not be computed: {}", e.what()));
     }
-    first_critical_ = watch_.critical();
+    first_critical_ = monitor_.critical();
     if (options_.step.value && *options_.step.value > first_critical_)
       throw ConfigError(
-          fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, "
-                      "or use an implicit integrator",
+          fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, or use an "
+                      "implicit integrator",
                       *options_.step.value, first_critical_));
-    if (!options_.step.value) refuse_a_run_without_end(task);
+    if (!options_.step.value) refuse_too_many_steps(task);
   }
 
-  void refuse_a_run_without_end(const Task& task) const {
+  void refuse_too_many_steps(const Task& task) const {
     const double h = options_.safety * first_critical_;
     const double steps = (task.end - task.initial.t) / h;
     if (steps > static_cast<double>(options_.max_steps))
       throw ConfigError(
-          fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than "
-                      "max_steps, {}; use an implicit integrator, or raise max_steps",
+          fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than max_steps, {}; use an "
+                      "implicit integrator, or raise max_steps",
                       steps, h, critical_text(first_critical_), options_.max_steps));
   }
 
   std::string critical_text(double step) const {
-    return fmt::format("critical {:.6g} s by Lanczos{}", step, watch_.expects_contact() ? ", all contact closed" : "");
+    return fmt::format("critical {:.6g} s by Lanczos{}", step,
+                       monitor_.expects_contact() ? ", all contact closed" : "");
   }
 
-  // The bound by the elements is cheaper and lower; it knows neither damping nor deformation.
+  // The critical step by element frequencies is cheaper to compute and shorter; it ignores damping and deformation.
   std::string element_text() const {
     const double omega = model_.frequency_bound();
     return omega > 0 ? fmt::format(", {:.6g} s by elements at rest, undamped", 2 / omega) : "";
@@ -108,7 +148,7 @@ class CentralDifferences : public ExplicitStep {
   void begin() override { update({end().t, end().q, end().v}); }
 
   void update(const State& state) {
-    watch_.update(state);
+    monitor_.update(state);
     choose_step();
   }
 
@@ -119,39 +159,40 @@ class CentralDifferences : public ExplicitStep {
     next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
     predicted_ = from.v + h * from.a;
     const VectorSpace space = model_.space();
-    if (!space.all(next_.q.allFinite() && predicted_.allFinite())) fail_by_growth();
+    if (!space.all(next_.q.allFinite() && predicted_.allFinite())) fail_diverged();
     acceleration(next_.t, next_.q, predicted_, next_.a);
-    if (has_exploded(h)) fail_by_growth();
+    if (has_diverged(h)) fail_diverged();
     next_.v = from.v + (0.5 * h) * (from.a + next_.a);
-    if (watch_.due()) update({next_.t, next_.q, next_.v});
+    if (monitor_.due()) update({next_.t, next_.q, next_.v});
   }
 
-  // A wave crosses about an element in a stable step: no force moves a node by the whole body in one.
-  bool has_exploded(double h) const {
-    return std::isfinite(watch_.critical()) && h * h * model_.space().largest_entry(next_.a) > extent_;
+  // A wave crosses about one element in a stable step, so no force moves a node by the size of the body in one step.
+  bool has_diverged(double h) const {
+    return std::isfinite(monitor_.critical()) && h * h * model_.space().largest_entry(next_.a) > extent_;
   }
 
-  [[noreturn]] void fail_by_growth() const {
+  [[noreturn]] void fail_diverged() const {
     fail(std::string("the motion has grown without bound; ") +
              (options_.step.value ? "set integrator.step: auto"
                                   : "lower integrator.safety, or use an implicit integrator"),
          Reason::diverged);
   }
 
-  // Steps chosen here divide what is left evenly: the map stays symplectic, and no tiny step comes last.
+  // Automatic steps divide the remaining time evenly: the map stays symplectic, and there is no tiny last step.
   double length(double rest) const {
     return options_.step.value ? length_of_fixed_step(step_, rest) : rest / std::ceil(rest / step_ * (1 - 1e-9));
   }
 
   void choose_step() {
-    const double critical = watch_.critical();
+    const double critical = monitor_.critical();
     if (options_.step.value) {
       step_ = *options_.step.value;
       if (step_ > critical)
-        fail(fmt::format("the critical step has fallen to {:.6g} s, below integrator.step, {:.6g} s; lower it or set "
-                         "it to auto",
-                         critical, step_),
-             Reason::diverged);
+        fail(
+            fmt::format(
+                "the critical step has fallen to {:.6g} s, below integrator.step, {:.6g} s; lower it or set it to auto",
+                critical, step_),
+            Reason::diverged);
     } else {
       step_ = std::isfinite(critical) ? options_.safety * critical : unbounded_;
     }
@@ -159,8 +200,8 @@ class CentralDifferences : public ExplicitStep {
   }
 
   CentralOptions options_;
-  StabilityWatch watch_;
-  double unbounded_;  // the step where nothing resists
+  CriticalStepMonitor monitor_;
+  double unbounded_;  // step without stiffness and damping, s
   double extent_;     // m
   double step_ = 0, first_step_ = 0, first_critical_ = 0;
   Vector predicted_;
@@ -173,10 +214,10 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
     static const auto s =
         Spec<C>()
             .key("step", &C::step,
-                 "Fixed step, refused above the critical one; auto: `safety` times the critical step, which is "
-                 "renewed as the deformation changes the stiffness.",
+                 "Fixed step, refused above the critical step. auto: `safety` times the critical step, which is "
+                 "recomputed as the deformation changes the stiffness.",
                  {.unit = "s", .range = kPositive})
-            .key("safety", &C::safety, "Share of the critical step that step: auto takes.",
+            .key("safety", &C::safety, "Step divided by the critical step, with step: auto.",
                  {.range = {0, 1, true, true}})
             .key("max_steps", &C::max_steps, "Steps after which the run gives up.", {.range = {1}})
             .check([](const C& options, const Config& config) {

@@ -5,9 +5,18 @@
 
 namespace orthodyn {
 
+DirkTable composite_table(double g, double q1, double q2) {
+  const double q0 = 1 - q1 - q2;
+  const double b1 = 1 / (6 * g * (1 - g)), b2 = 0.5 - g * b1, b0 = 1 - b1 - b2;
+  return {2, 3, {0, g, 1}, {{g / 2, g / 2}, {q0, q1, q2}}, {b0 - q0, b1 - q1, b2 - q2}};
+}
+
 Dirk::Dirk(const std::string& name, const Model& model, const NewtonOptions& options, const Scales& scales,
            DirkTable table)
-    : OneStep(name, model, options, scales), table_(std::move(table)), past_(model.space()), tried_(past_) {
+    : OneStep(name, model, options, scales),
+      table_(std::move(table)),
+      predictor_(model.space()),
+      attempt_predictor_(predictor_) {
   std::vector<double> diagonals;
   for (const auto& row : table_.a) {
     const auto known = std::find(diagonals.begin(), diagonals.end(), row.back());
@@ -25,12 +34,12 @@ Dirk::Dirk(const std::string& name, const Model& model, const NewtonOptions& opt
 
 void Dirk::restarted() {
   for (const auto& solver : solvers_) solver->restart();
-  past_.clear();
-  past_.add(now().t, now().a);
+  predictor_.clear();
+  predictor_.add(now().t, now().a);
 }
 
 bool Dirk::attempt(double h) {
-  tried_ = past_;
+  attempt_predictor_ = predictor_;
   V_.col(0) = now().v;
   A_.col(0) = now().a;
   for (const auto& solver : solvers_) solver->begin_step();
@@ -50,9 +59,9 @@ bool Dirk::solve_stage(Eigen::Index i, double h) {
   stage_.q = now().q + h * (V_.leftCols(i) * known) + gamma * stage_.v;
   stage_.w_d = gamma;
   stage_.w_k = gamma * gamma;
-  tried_.predict(stage_.t, A_.col(i));
+  attempt_predictor_.predict(stage_.t, A_.col(i));
   if (!solver_of_[static_cast<std::size_t>(i - 1)]->solve(stage_, A_.col(i), next_.q, V_.col(i))) return false;
-  tried_.add(stage_.t, A_.col(i));
+  attempt_predictor_.add(stage_.t, A_.col(i));
   return true;
 }
 
@@ -63,7 +72,7 @@ void Dirk::estimate(double h, VectorRef e_q, VectorRef e_v) {
   solver_of_.back()->filter(e_q, e_v);
 }
 
-void Dirk::accepted(double) { std::swap(past_, tried_); }
+void Dirk::accepted(double) { std::swap(predictor_, attempt_predictor_); }
 
 std::size_t Dirk::factor_bytes() const {
   std::size_t sum = 0;
@@ -72,7 +81,7 @@ std::size_t Dirk::factor_bytes() const {
 }
 
 std::size_t Dirk::method_bytes() const {
-  std::size_t sum = past_.bytes() + tried_.bytes();
+  std::size_t sum = predictor_.bytes() + attempt_predictor_.bytes();
   for (const auto& solver : solvers_) sum += solver->bytes();
   const auto vectors = static_cast<std::size_t>(2 * V_.cols() + 2);
   return sum + vectors * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);

@@ -2,25 +2,35 @@
 //
 //   Q_i = q0 + h sum_j a_ij V_j,   V_i = v0 + h sum_j a_ij A_j,   M A_i = f(t0 + c_i h, Q_i, V_i)
 //
-// Each stage has the weights w_d = h a_ii, w_k = w_d^2. Stage 0 is the beginning of the step, where A_0 is known;
-// the last one is its end (stiffly accurate). One factorisation per distinct a_ii outlives the steps.
+// The Newton matrix of stage i is M + w_d D + w_k K with w_d = h a_ii, w_k = w_d^2. Stage 0 is the start of the step,
+// where A_0 is known. The last stage is the end of the step (stiffly accurate). One factorisation per distinct a_ii is
+// kept across steps.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "integrators/native/accelerations.h"
+#include "integrators/native/acceleration_predictor.h"
 #include "integrators/native/one_step.h"
 #include "integrators/native/stage_solver.h"
 
 namespace orthodyn {
 
 struct DirkTable {
-  int order, estimate;                 // of the method; the power of h in its error estimate
-  std::vector<double> c;               // of stages 0 to s; c_0 = 0, c_s = 1
-  std::vector<std::vector<double>> a;  // rows of stages 1 to s: a_i0 to a_ii
+  int order, estimate;                 // order of the method; power of h in its error estimate
+  std::vector<double> c;               // times of stages 0 to s as fractions of the step; c_0 = 0, c_s = 1
+  std::vector<std::vector<double>> a;  // one row per stage i = 1 to s: a_i0 to a_ii
   std::vector<double> error;           // the local error is h sum_i error_i (V_i, A_i), i = 0 to s
 };
+
+// Butcher table of a composite method for y = (q, v) with slope f(y). The trapezoidal rule leads from y0 at the start
+// to y_g at the fraction g of the step; then
+//
+//   y1 = y0 + h (q0 f(y0) + q1 f(y_g) + q2 f(y1)),    q0 = 1 - q1 - q2,    q1 g + q2 = 1/2.
+//
+// Both stages have order two. The error estimate is the difference from the quadrature of order three with the same
+// three slopes (Hosea & Shampine 1996).
+DirkTable composite_table(double g, double q1, double q2);
 
 class Dirk : public OneStep {
  public:
@@ -42,10 +52,10 @@ class Dirk : public OneStep {
 
   DirkTable table_;
   std::vector<std::unique_ptr<StageSolver>> solvers_;  // one per distinct a_ii
-  std::vector<StageSolver*> solver_of_;                // of stages 1 to s
+  std::vector<StageSolver*> solver_of_;                // solvers of stages 1 to s
   StageSolver::Stage stage_;
-  Eigen::MatrixXd V_, A_;       // a column per stage
-  Accelerations past_, tried_;  // until now(), and in the last attempt
+  Eigen::MatrixXd V_, A_;                                // a column per stage
+  AccelerationPredictor predictor_, attempt_predictor_;  // up to now(); with the last attempt's stages
 };
 
 }  // namespace orthodyn

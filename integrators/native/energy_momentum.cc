@@ -1,29 +1,33 @@
-// The energy-momentum method (Simo & Tarnow 1992; Gonzalez 2000): with the discrete gradient f of the energy,
+// The energy-momentum method (Simo & Tarnow 1992; Gonzalez 2000). With the mean force f(q0, q1) of a discrete gradient
+// (lib/ode/model.h), a step h satisfies
 //
-//     q1 - q0 = h (v0 + v1) / 2,    M (v1 - v0) = h f(q0, q1),
+//     q1 - q0 = h (v0 + v1) / 2,    M (v1 - v0) = h f(q0, q1).
 //
-// keeps the energy, and linear and angular momentum where nothing acts from outside. Forces that depend on
-// velocities are taken at the middle. What it keeps it keeps to what the iteration leaves, which therefore goes on
-// down to round-off: Newton's with the matrix of the midpoint rule at the beginning of each step, which is symmetric
-// as the derivative of f is not, accelerated (anderson.h). An inverted element has no discrete gradient: the step is
-// shortened, and in the end the run given up.
+// The method conserves energy and, without external loads, linear and angular momentum. Velocity-dependent forces are
+// evaluated at the midpoint.
+//
+// Conservation is as accurate as the iteration, which therefore continues to round-off. It is Newton's method with
+// Anderson acceleration (anderson.h). Its matrix is that of the midpoint rule at a predicted midpoint, which is
+// symmetric, unlike df/dq1. An inverted element has no discrete gradient: the step is shortened, and finally the run
+// fails.
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/finite_force.h"
 #include "integrators/native/anderson.h"
 #include "integrators/native/one_step.h"
 #include "integrators/newton_matrix.h"
+#include "integrators/run_checks.h"
 
 namespace orthodyn {
 namespace {
 
-// Of the first correction: those of this size are wanted, and those below the other are round-off if they do not
-// shrink. So are corrections below the third, of the scales, however small the first one was, that have not shrunk for
-// some iterations.
-constexpr double kExact = 1e-15, kResidualRoundOff = 1e-11, kNothing = 1e-9;
+// Convergence tests. Relative to the first correction: limit for converged; limit for converged if corrections no
+// longer shrink (round-off).
+constexpr double kConverged = 1e-15, kResidualRoundOff = 1e-11;
+// Relative to the scales: limit for converged if corrections have not shrunk for kStalled iterations.
+constexpr double kNegligible = 1e-9;
 constexpr int kStalled = 5;
-constexpr double kDiverged = 100;  // times the smallest correction so far
+constexpr double kDiverged = 100;  // relative to the smallest correction so far
 constexpr int kAndersonDepth = 5;
 
 struct EnergyMomentumOptions : LinearOptions {
@@ -34,9 +38,9 @@ const DiscreteGradient& gradient_of(const Model& model) {
   const DiscreteGradient* gradient = model.discrete_gradient();
   if (!gradient)
     throw ConfigError(
-        "energy_momentum needs a force that is the gradient of an energy, which neither the warped force "
-        "is (elasticity.corotation: exact) nor the pull of moved nodes with a consistent mass (mass: "
-        "lumped); or choose another integrator");
+        "energy_momentum needs a force that is the gradient of an energy. The warped force is not (use "
+        "elasticity.corotation: exact), nor is the force of moved nodes with a consistent mass (use mass: lumped). Or "
+        "choose another integrator");
   return *gradient;
 }
 
@@ -61,7 +65,7 @@ class EnergyMomentum : public OneStep {
   void restarted() override { last_h_ = 0; }
 
   bool attempt(double h) override {
-    // Far beyond the fast oscillations' periods no acceleration says anything about the next.
+    // The guess is zero, because the last acceleration predicts nothing if steps are much longer than the fast periods.
     x_.setZero();
     if (!prepare(h) || !iterate(h)) return false;
     next_.v = now().v + h * x_;
@@ -71,8 +75,8 @@ class EnergyMomentum : public OneStep {
     return true;
   }
 
-  // That of the trapezoidal rule, to which the method comes down for a linear model, by differences of accelerations
-  // (Zienkiewicz & Xie 1991), and in v the difference to it.
+  // Estimates the error of the trapezoidal rule, to which the method reduces for linear models, from differences of
+  // accelerations (Zienkiewicz & Xie 1991). The error in v also contains the difference from the trapezoidal rule.
   void estimate(double h, VectorRef e_q, VectorRef e_v) override {
     const auto change = next_.a - now().a;
     e_v = change;
@@ -93,7 +97,7 @@ class EnergyMomentum : public OneStep {
   }
 
  private:
-  // (I - h/2 J)^-1: what is stiff in an estimate says nothing (Shampine 1984).
+  // Multiplies by (I - h/2 J)^-1, which removes the stiff, meaningless part of the estimate (Shampine 1984).
   void filter(double h, VectorRef e_q, VectorRef e_v) {
     matrix_.multiply_stiffness(e_q, mx_);
     model_.multiply_mass(e_v, r_);
@@ -103,15 +107,15 @@ class EnergyMomentum : public OneStep {
     e_q += 0.5 * h * r_;
   }
 
-  // x: the mean acceleration of the step; the middle follows from it.
-  void middle(double h) {
+  // Sets the midpoint velocity v_ and position q_ from the mean acceleration x_.
+  void set_midpoint(double h) {
     v_ = now().v + 0.5 * h * x_;
     q_ = now().q + 0.5 * h * v_;
   }
 
   bool prepare(double h) {
     if (model_.traits().linear && h == factored_for_) return true;
-    middle(h);
+    set_midpoint(h);
     matrix_.linearize(now().t + 0.5 * h, q_, v_);
     factored_for_ = matrix_.factor({1, 0.5 * h, 0.25 * h * h}) ? h : 0;
     return factored_for_ == h;
@@ -128,11 +132,11 @@ class EnergyMomentum : public OneStep {
       anderson_.accelerate(x_, r_);
       x_ += r_;
       if (k == 0) first = smallest = size;
-      if (size <= kExact * first) return true;
+      if (size <= kConverged * first) return true;
       if (k > 0 && size >= smallest) {
         if (size <= kResidualRoundOff * first) return true;
         if (size > kDiverged * smallest) return false;
-        if (++stalled >= kStalled && size * norm_.rtol() <= kNothing) return true;
+        if (++stalled >= kStalled && size * norm_.rtol() <= kNegligible) return true;
       } else {
         stalled = 0;
       }
@@ -143,7 +147,7 @@ class EnergyMomentum : public OneStep {
 
   // r <- A^-1 (f - M x)
   void correction(double h) {
-    middle(h);
+    set_midpoint(h);
     {
       const Measure measure(statistics_.force);
       const StepEnd& from = now();
@@ -159,11 +163,11 @@ class EnergyMomentum : public OneStep {
   int max_iterations_;
   const DiscreteGradient& gradient_;
   NewtonMatrix matrix_;
-  double factored_for_ = 0;  // h; 0 if there is no factor
+  double factored_for_ = 0;  // step h of the factor, s; 0 without a factor
   Anderson anderson_;
   Vector x_, q_, v_, r_, mx_;
   double last_h_ = 0;   // 0 after a restart
-  Vector last_change_;  // of accelerations, over the last step
+  Vector last_change_;  // change of the acceleration over the last step
 };
 
 class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public EnergyMomentumOptions {
@@ -171,14 +175,13 @@ class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public
   static const Spec<EnergyMomentumChoice>& spec() {
     static const auto s = LinearOptions::spec_for<EnergyMomentumChoice>().key(
         "max_newton_iterations", &EnergyMomentumChoice::max_newton_iterations,
-        "Iterations per step, which go down to round-off.", {.range = {1, 1000}});
+        "Iterations per step; they converge to round-off.", {.range = {1, 1000}});
     return s;
   }
   static MethodFacts facts() {
-    return method_facts("2", "A-stable for linear models; damps nothing by itself",
-                        "energy, linear and angular momentum, to round-off",
-                        "Simo & Tarnow, ZAMP 43, 1992; Gonzalez, CMAME 190, 2000; error estimate: difference to the "
-                        "trapezoidal rule");
+    return method_facts(
+        "2", "A-stable for linear models; damps nothing by itself", "energy, linear and angular momentum, to round-off",
+        "Simo & Tarnow, ZAMP 43, 1992; Gonzalez, CMAME 190, 2000; error estimate: difference to the trapezoidal rule");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<EnergyMomentum>(model, *this, scales(task));
@@ -186,7 +189,7 @@ class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public
 };
 
 const bool energy_momentum_registered = Registry<IntegratorChoice>::add<EnergyMomentumChoice>(
-    "energy_momentum", "Keeps energy and momentum at any step; adaptive or with a fixed step, implicit.");
+    "energy_momentum", "Conserves energy and momentum at any step; adaptive or with a fixed step, implicit.");
 
 }  // namespace
 }  // namespace orthodyn

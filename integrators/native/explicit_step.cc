@@ -4,12 +4,12 @@
 
 #include <utility>
 
-#include "integrators/finite_force.h"
+#include "integrators/run_checks.h"
 
 namespace orthodyn {
 
-ExplicitStep::ExplicitStep(const Model& model, const Words& words, int order, long max_steps)
-    : model_(model), words_(words), order_(order), max_steps_(max_steps) {
+ExplicitStep::ExplicitStep(const Model& model, const Remedies& remedies, int order, long max_steps)
+    : model_(model), remedies_(remedies), order_(order), max_steps_(max_steps) {
   const Vector zero = Vector::Zero(model.num_dofs());
   begin_ = end_ = next_ = {0, zero, zero, zero};
 }
@@ -22,8 +22,7 @@ void ExplicitStep::start(const State& state) {
     acceleration(end_.t, end_.q, end_.v, end_.a);
     begin();
   } catch (const RecoverableError& e) {
-    fail(fmt::format("the force cannot be evaluated ({}); check the initial state and the loads", e.what()),
-         Reason::force);
+    throw initial_force_error(remedies_.name, end_.t, e.what());
   }
 }
 
@@ -34,14 +33,11 @@ std::optional<State> ExplicitStep::mean_of_step() const {
 
 StepInfo ExplicitStep::step(double t_stop) {
   if (statistics_.steps >= max_steps_)
-    throw RunError(
-        fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps{}", words_.name,
-                    end_.t, statistics_.steps, words_.fewer.empty() ? "" : " or " + words_.fewer),
-        Reason::too_many_steps);
+    throw too_many_steps_error(remedies_.name, end_.t, statistics_.steps, remedies_.fewer);
   try {
     advance(t_stop);
   } catch (const RecoverableError& e) {
-    fail(fmt::format("the force cannot be evaluated ({}); {} or check the loads", e.what(), words_.shorter),
+    fail(fmt::format("the force cannot be evaluated ({}); {} or check the loads", e.what(), remedies_.shorter),
          Reason::force);
   }
   std::swap(begin_, end_);
@@ -69,8 +65,8 @@ void ExplicitStep::acceleration(double t, const ConstVectorRef& q, const ConstVe
   model_.solve_mass(a);
 }
 
-void ExplicitStep::fail(const std::string& what, Reason reason) const {
-  throw RunError(fmt::format("{} stopped at t = {:.6g} s: {}", words_.name, end_.t, what), reason);
+void ExplicitStep::fail(const std::string& problem, Reason reason) const {
+  throw RunError(fmt::format("{} stopped at t = {:.6g} s: {}", remedies_.name, end_.t, problem), reason);
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// What our own one-step methods without Newton iterations share: the ends of the last step, dense output between them,
-// counting, and the messages of failure.
+// Base of central_differences and exponential_rosenbrock, which use no Newton matrix: both ends of the last step, dense
+// output, statistics and failure messages. A derived method implements advance().
 #pragma once
 
 #include <string>
@@ -18,25 +18,27 @@ class ExplicitStep : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
 
  protected:
-  // For messages: the integrator's name and what makes its steps shorter, and what makes them fewer.
-  struct Words {
-    std::string name, shorter, fewer;  // "lower integrator.step", "raise integrator.step"
+  // Texts for messages. name: type of the integrator; shorter: remedy that shortens steps ("lower integrator.step");
+  // fewer: key that reduces the number of steps if raised ("integrator.step").
+  struct Remedies {
+    std::string name, shorter, fewer;
   };
-  ExplicitStep(const Model& model, const Words& words, int order, long max_steps);
+  ExplicitStep(const Model& model, const Remedies& remedies, int order, long max_steps);
 
-  // A start or restart, at end().
+  // Called at a start or restart, when end() is the initial state.
   virtual void begin() {}
-  // One step from end() to next_ (t, q, v and a), at t_stop at the latest. A RecoverableError becomes a RunError.
+  // Takes one step from end() to next_ (t, q, v, a), which ends at t_stop at the latest. If it throws RecoverableError,
+  // step() throws RunError.
   virtual void advance(double t_stop) = 0;
 
-  // a = M^-1 f, m/s^2. Throws RecoverableError where f cannot be evaluated or is not finite.
+  // Computes a = M^-1 f (m/s^2). Throws RecoverableError if f cannot be evaluated or is not finite.
   void acceleration(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef a);
 
-  // Throws RunError with the integrator, the time and what is wrong.
-  [[noreturn]] void fail(const std::string& what, Reason reason) const;
+  // Throws RunError with the message "NAME stopped at t = ...: PROBLEM".
+  [[noreturn]] void fail(const std::string& problem, Reason reason) const;
 
   const StepEnd& end() const { return end_; }
-  // Of the last step, for Integrator::mean_state(); none before the first.
+  // Returns the mean state of the last step, for Integrator::mean_state(); empty before the first step.
   std::optional<State> mean_of_step() const;
 
   const Model& model_;
@@ -44,10 +46,10 @@ class ExplicitStep : public Integrator {
   StepEnd next_;
 
  private:
-  Words words_;
+  Remedies remedies_;
   int order_;
   long max_steps_;
-  StepEnd begin_, end_;  // of the last step
+  StepEnd begin_, end_;  // ends of the last step
 };
 
 }  // namespace orthodyn

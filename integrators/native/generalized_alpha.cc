@@ -1,5 +1,5 @@
-// The generalised-alpha method (Chung & Hulbert 1993): of all with the same damping of the fastest oscillations
-// that which damps slow ones least.
+// The generalised-alpha method (Chung & Hulbert 1993). Its parameters damp slow oscillations least for a given damping
+// of the fastest ones.
 #include "integrators/native/alpha_method.h"
 
 namespace orthodyn {
@@ -17,8 +17,8 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
   static const Spec<GeneralizedAlphaChoice>& spec() {
     using C = GeneralizedAlphaChoice;
     static const auto s = NewtonOptions::spec_for<C>().key(
-        "rho_inf", &C::rho_inf, "What a step leaves of the fastest oscillations: 0 all damped, 1 none.",
-        {.range = {0, 1}});
+        "rho_inf", &C::rho_inf,
+        "Factor by which a step reduces the fastest oscillations: 0 removes them, 1 keeps them.", {.range = {0, 1}});
     return s;
   }
   static MethodFacts facts() {

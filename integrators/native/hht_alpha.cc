@@ -1,4 +1,4 @@
-// The alpha method of Hilber, Hughes & Taylor (1977): Newmark's, with a mean of the forces at both ends of the step.
+// The alpha method of Hilber, Hughes & Taylor (1977): Newmark's method with a weighted mean of the forces at both ends.
 #include "integrators/native/alpha_method.h"
 
 namespace orthodyn {
@@ -10,8 +10,7 @@ class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptio
 
   static const Spec<HhtAlphaChoice>& spec() {
     static const auto s = NewtonOptions::spec_for<HhtAlphaChoice>().key(
-        "alpha", &HhtAlphaChoice::alpha, "From 0, no damping of fast oscillations, to -1/3, the most.",
-        {.range = {-1.0 / 3, 0}});
+        "alpha", &HhtAlphaChoice::alpha, "Damping of fast oscillations: 0 none, -1/3 most.", {.range = {-1.0 / 3, 0}});
     return s;
   }
   static MethodFacts facts() {

@@ -10,11 +10,11 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kInvariant = 1e-14;  // of the size of J v
-constexpr int kFirstLook = 4;
+constexpr double kInvariant = 1e-14;  // relative to |J v|; below it the space is invariant
+constexpr int kFirstCheck = 4;
 
-// Looks are spaced so that the small exponentials cost less than the space.
-int next_look(int dimension) { return std::max(kFirstLook, dimension + std::max(2, dimension / 4)); }
+// Dimension of the next error check. The checks are spaced so that the small exponentials cost less than the space.
+int next_check(int dimension) { return std::max(kFirstCheck, dimension + std::max(2, dimension / 4)); }
 
 }  // namespace
 
@@ -55,8 +55,8 @@ bool KrylovPhi::apply(int k, double h, double tolerance, Vector& out) {
     out.setZero(basis_.rows());
     return true;
   }
-  for (int look = std::max(dimension_, kFirstLook);; look = next_look(look)) {
-    while (dimension_ < std::min(look, max_dimension_) && !invariant_) grow();
+  for (int check = std::max(dimension_, kFirstCheck);; check = next_check(check)) {
+    while (dimension_ < std::min(check, max_dimension_) && !invariant_) grow();
     const int m = dimension_;
     const Eigen::MatrixXd phi = small_phi(h, k + 1);
     const double last = invariant_ ? 0 : beta_ * h * hessenberg_(m, m - 1) * phi(m - 1, k);

@@ -1,9 +1,14 @@
-// phi_k(h J) b of a large J by Arnoldi's method, with phi_0 = exp, phi_k(z) = (phi_{k-1}(z) - 1/(k-1)!) / z.
+// Computes phi_k(h J) b for a large matrix J by Arnoldi's method, where
 //
-// From J V = V H + eta v_{m+1} e_m^T and b = beta v_1,
-//     phi_k(h J) b ~ beta (V phi_k(h H) e_1 + h eta [phi_{k+1}(h H) e_1]_m v_{m+1}),
-// whose last part is the estimate of the error without it (Saad 1992, 5). The small functions are columns of
-// one exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the estimate is small. Not thread-safe.
+//     phi_0(z) = exp(z),   phi_k(z) = (phi_{k-1}(z) - 1/(k-1)!) / z.
+//
+// The columns v_1 to v_m of V are an orthonormal basis of the Krylov space of b = beta v_1, H is upper Hessenberg and
+// e_i a unit vector. From J V = V H + eta v_{m+1} e_m^T follows
+//
+//     phi_k(h J) b ~ beta (V phi_k(h H) e_1 + h eta [phi_{k+1}(h H) e_1]_m v_{m+1}).
+//
+// The second term is the error estimate of the first (Saad 1992, section 5). The phi_k(h H) e_1 are columns of one
+// exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the estimate is small. Not thread-safe.
 #pragma once
 
 #include <functional>
@@ -18,12 +23,11 @@ class KrylovPhi {
 
   KrylovPhi(Eigen::Index size, int max_dimension);
 
-  // Begins a space for a vector of the given size. `J` is called by apply() too and must not change until the next
-  // begin().
+  // Starts the Krylov space of b. apply() calls `J`, too, so J must not change until the next begin().
   void begin(const Operator& J, const Vector& b);
 
-  // out = phi_k(h J) b for any k >= 1 and h; false if its error, root mean square, would exceed the tolerance in
-  // the largest space. Throws RecoverableError where J is not finite.
+  // Computes out = phi_k(h J) b for any k >= 1 and h. False if the root mean square of the error exceeds `tolerance`
+  // even in the largest space. Throws RecoverableError if J is not finite.
   bool apply(int k, double h, double tolerance, Vector& out);
 
   int dimension() const { return dimension_; }
@@ -31,12 +35,12 @@ class KrylovPhi {
 
  private:
   void grow();
-  // Columns phi_1(h H) e_1 to phi_count(h H) e_1.
+  // Returns the columns phi_1(h H) e_1 to phi_count(h H) e_1.
   Eigen::MatrixXd small_phi(double h, int count) const;
 
   Operator J_;
   int max_dimension_, dimension_ = 0;
-  bool invariant_ = false;  // the space cannot and need not grow
+  bool invariant_ = false;  // the space is invariant: it cannot and need not grow
   double beta_ = 0;
   Eigen::MatrixXd basis_, hessenberg_;
 };

@@ -1,5 +1,6 @@
-// What linearly implicit methods share: no Newton iteration, only solves with I - gamma J of y' = (v, M^-1 f), whose
-// A = M + gamma D + gamma^2 K is factored at the beginning of a step (reduced_solve.h).
+// Base of the linearly implicit methods, which need no Newton iteration. They solve linear systems with I - gamma J,
+// where gamma is in s and J is the Jacobian of y' = (v, M^-1 f). The matrix A = M + gamma D + gamma^2 K is factored at
+// the start of a step (reduced_solve.h).
 #pragma once
 
 #include "integrators/native/one_step.h"
@@ -9,8 +10,8 @@ namespace orthodyn {
 
 class LinearlyImplicit : public OneStep {
  public:
-  // K and D are kept for `tangent_steps` steps, or until one fails. Throws ConfigError if the linear solver does
-  // not take the model's matrices.
+  // K and D are kept for `tangent_steps` steps, or until a step fails. Throws ConfigError if the linear solver does not
+  // accept the model's matrices.
   LinearlyImplicit(const std::string& name, const Model& model, const LinearOptions& options, const Scales& scales,
                    int tangent_steps);
   std::size_t factor_bytes() const override { return solve_.factor_bytes(); }
@@ -21,22 +22,23 @@ class LinearlyImplicit : public OneStep {
   std::string solver_description() const override { return solve_.description(); }
   std::size_t method_bytes() const override;
 
-  // The factor for a step that is about to be attempted. False if there is none.
+  // Factors A at the start of an attempt. False if A is singular or indefinite.
   bool prepare(double gamma);
-  // next_'s q and v stand: the force there, which the next step begins with. The acceleration for dense output is the
-  // method's own, for M^-1 f would multiply what the step left of stiff modes by their stiffness.
+  // Call it once q and v of next_ are known. Evaluates the force there, which the next step needs at its start. `a`:
+  // the method's own acceleration (m/s^2) for dense output, because M^-1 f would multiply the error of stiff modes by
+  // their stiffness.
   void finish(const ConstVectorRef& a);
 
-  const Vector& force_now() const { return f_now_; }    // at now()
-  const Vector& force_next() const { return f_next_; }  // at next_, after finish()
+  const Vector& force_now() const { return f_now_; }    // force at now()
+  const Vector& force_next() const { return f_next_; }  // force at next_, after finish()
   ReducedSolve solve_;
 
  private:
   int tangent_steps_;
-  int age_ = 0;  // steps that K and D have served; 0: not one
+  int age_ = 0;  // number of steps taken with the current K and D
   bool linearized_ = false;
-  bool attempted_ = false;  // a step from now() was tried before
-  double gamma_ = 0;        // of the factor; 0 if there is none
+  bool attempted_ = false;  // a step from now() has been tried
+  double gamma_ = 0;        // s, of the current factor; 0 without a factor
   Vector f_now_, f_next_;
 };
 

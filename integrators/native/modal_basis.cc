@@ -14,34 +14,34 @@
 namespace orthodyn {
 namespace {
 
-constexpr double kShift = 1e-6;     // of the highest kept eigenvalue
-constexpr double kCoupling = 1e-5;  // of modes by damping: of an amplitude
-constexpr int kFirstCount = 20;     // of modes where their number is to be found
-constexpr int kMostModes = 2000;
-constexpr double kRayleigh = 1e-6;    // misfit of alpha M + beta K, of the largest entry
-constexpr double kNoDamping = 1e-13;  // of the largest damping: none
+constexpr double kShift = 1e-6;     // shift s, relative to the first eigenvalue left out
+constexpr double kCoupling = 1e-5;  // largest accepted coupling of modes by damping, relative to an amplitude
+constexpr int kFirstCount = 20;     // number of modes of the first search for `below`
+constexpr int kMaxModesBelow = 2000;
+constexpr double kRayleigh = 1e-6;    // accepted misfit of alpha M + beta K, relative to the largest entry
+constexpr double kNoDamping = 1e-13;  // relative to the largest entry; smaller parts are treated as zero
 
 double hertz(double lambda) { return std::sqrt(lambda) / (2 * std::numbers::pi); }
 
 void require_linear(const Model& model) {
   if (!model.traits().linear)
     throw ConfigError(
-        "modal integrates linear models only, and this one is not: set `elasticity.kinematics: linear` and use no "
-        "ground, following pressure or turning springs and dashpots, or use another integrator");
+        "modal integrates only linear models, and this model is nonlinear: set `elasticity.kinematics: linear` and use "
+        "no ground_contact, following pressure or turning springs and dashpots, or use another integrator");
   if (!model.pattern().symmetric) throw ConfigError("modal needs a symmetric stiffness; use another integrator");
 }
 
 Vector root_of_diagonal(const Pattern& pattern, const std::vector<double>& M) {
-  Vector root(pattern.n);  // the first entry of each lower triangle's column is the diagonal
+  Vector root(pattern.n);  // the first entry of each column is the diagonal
   for (int j = 0; j < pattern.n; ++j)
     root[j] = std::sqrt(M[static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(j)])]);
   return root;
 }
 
-// D = alpha M + beta K, as nearly as may be.
+// Best fit of D = alpha M + beta K.
 struct Rayleigh {
   double alpha = 0, beta = 0;
-  double misfit = 0;  // the largest entry of what is left, of that of D
+  double misfit = 0;  // largest entry of the residual, relative to that of D
 };
 
 Rayleigh rayleigh_fit(const Pattern& pattern, const std::vector<double>& M, const std::vector<double>& K,
@@ -65,7 +65,7 @@ Rayleigh rayleigh_fit(const Pattern& pattern, const std::vector<double>& M, cons
   Rayleigh out{fit[0] / sizes[0], fit[1] / sizes[1]};
   const double largest = b.lpNorm<Eigen::Infinity>();
   out.misfit = largest > 0 ? (scaled * fit - b).lpNorm<Eigen::Infinity>() / largest : 0;
-  // A part that adds no more than round-off is none.
+  // A part within round-off is set to zero.
   for (const auto& [part, column] : {std::pair{&out.alpha, 0}, std::pair{&out.beta, 1}})
     if (std::abs(*part) * A.col(column).lpNorm<Eigen::Infinity>() <= kNoDamping * largest) *part = 0;
   return out;
@@ -88,30 +88,31 @@ ModalBasis::ModalBasis(const Model& model, const ModeLimit& limit) : model_(mode
   mass_.resize(entries);
   model.combine({0, 0, 1}, at_, stiffness_.data());
   model.combine({1, 0, 0}, at_, mass_.data());
-  drag_.resize(entries);
-  model.combine({0, 1, 0}, at_, drag_.data());
-  if (std::all_of(drag_.begin(), drag_.end(), [](double d) { return d == 0; })) drag_.clear();
-  take_modes(limit);
-  take_damping();
+  damping_entries_.resize(entries);
+  model.combine({0, 1, 0}, at_, damping_entries_.data());
+  if (std::all_of(damping_entries_.begin(), damping_entries_.end(), [](double d) { return d == 0; }))
+    damping_entries_.clear();
+  find_modes(limit);
+  set_modal_damping();
   if (!complete_) factor();
 }
 
-void ModalBasis::take_modes(const ModeLimit& limit) {
-  if (limit.modes) take_count(*limit.modes);
-  else take_below(*limit.below);
+void ModalBasis::find_modes(const ModeLimit& limit) {
+  if (limit.modes) find_lowest(*limit.modes);
+  else find_below(*limit.below);
   if (lambda_.minCoeff() < 0)
     throw ConfigError(
         "the state of rest is not stable: modal needs a stiffness without negative eigenvalues; use another "
         "integrator");
   if (!complete_ && next_lambda_ == 0)
     throw ConfigError(
-        fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing "
-                    "holds (6); ask for more modes",
+        fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing holds (6); ask "
+                    "for more modes",
                     lambda_.size()));
 }
 
-// So many and one more, which tells what is left out.
-void ModalBasis::take_count(int count) {
+// Finds `count` modes, and the eigenvalue of the first mode left out.
+void ModalBasis::find_lowest(int count) {
   const int n = model_.num_dofs();
   complete_ = count >= n;
   const int kept = std::min(count, n);
@@ -123,15 +124,15 @@ void ModalBasis::take_count(int count) {
   resolution_ = pairs.resolution;
 }
 
-void ModalBasis::take_below(double frequency) {
+void ModalBasis::find_below(double frequency) {
   const double limit = std::pow(2 * std::numbers::pi * frequency, 2);
   for (int count = kFirstCount;; count *= 2) {
-    take_count(count);
+    find_lowest(count);
     if (complete_ || next_lambda_ >= limit) break;
-    if (count >= kMostModes)
+    if (count >= kMaxModesBelow)
       throw ConfigError(
-          fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower "
-                      "`below`, or use another integrator",
+          fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower `below`, or use "
+                      "another integrator",
                       count, frequency, hertz(lambda_[lambda_.size() - 1])));
   }
   const auto kept =
@@ -146,41 +147,42 @@ void ModalBasis::take_below(double frequency) {
   shapes_.conservativeResize(Eigen::NoChange, kept);
 }
 
-// Rayleigh damping has its own place: exact for rigid motions, which stiffness damping leaves alone.
-void ModalBasis::take_damping() {
+// Rayleigh damping is treated separately, so that stiffness damping has exactly no effect on rigid motions.
+void ModalBasis::set_modal_damping() {
   damping_ = Vector::Zero(size());
-  if (drag_.empty()) return;
+  if (damping_entries_.empty()) return;
   const Pattern& pattern = model_.pattern();
-  const Rayleigh fit = rayleigh_fit(pattern, mass_, stiffness_, drag_);
+  const Rayleigh fit = rayleigh_fit(pattern, mass_, stiffness_, damping_entries_);
   if (fit.misfit <= kRayleigh) {
     damping_ = (fit.alpha + fit.beta * lambda_.array()).max(0).matrix();
     next_damping_ = fit.alpha + fit.beta * next_lambda_;
     return;
   }
-  take_other_damping();
+  set_general_damping();
 }
 
-// Damping of another kind may couple the modes by so much that the motion does not show it: amplitudes of one mode in
-// another of c/|omega_1 - omega_2|, or c/d where frequencies are equal.
-void ModalBasis::take_other_damping() {
-  Eigen::MatrixXd drag(shapes_.rows(), size());
-  for (Eigen::Index k = 0; k < size(); ++k) drag.col(k) = times_damping(shapes_.col(k));
-  const Eigen::MatrixXd among = shapes_.transpose() * drag;
-  damping_ = among.diagonal().cwiseMax(0);
-  next_damping_ = 0;  // not known
+// Other damping is accepted if the coupling of the modes is negligible. A coupling c (1/s) excites another mode to a
+// relative amplitude of c/|omega_1 - omega_2|, or c/d for equal frequencies and modal damping d.
+void ModalBasis::set_general_damping() {
+  Eigen::MatrixXd damping_forces(shapes_.rows(), size());
+  for (Eigen::Index k = 0; k < size(); ++k) damping_forces.col(k) = times_damping(shapes_.col(k));
+  const Eigen::MatrixXd modal_damping = shapes_.transpose() * damping_forces;
+  damping_ = modal_damping.diagonal().cwiseMax(0);
+  next_damping_ = 0;  // unknown
   const Vector omega = lambda_.cwiseSqrt();
   double worst = 0;
-  const auto look = [&](double coupling, double apart, double d) {
-    if (coupling > 0) worst = std::max(worst, coupling / std::max(std::abs(apart), d));
+  const auto record = [&](double coupling, double gap, double d) {
+    if (coupling > 0) worst = std::max(worst, coupling / std::max(std::abs(gap), d));
   };
   for (Eigen::Index k = 0; k < size(); ++k) {
     for (Eigen::Index j = 0; j < k; ++j)
-      look(std::abs(among(j, k)), omega[k] - omega[j], 0.5 * (damping_[j] + damping_[k]));
+      record(std::abs(modal_damping(j, k)), omega[k] - omega[j], 0.5 * (damping_[j] + damping_[k]));
     if (complete_) continue;
-    const Vector out = drag.col(k) - times_mass(shapes_ * among.col(k));  // into modes left out
+    // Component in the modes left out.
+    const Vector out = damping_forces.col(k) - times_mass(shapes_ * modal_damping.col(k));
     Vector accelerated = out;
     model_.solve_mass(accelerated);
-    look(std::sqrt(std::max(out.dot(accelerated), 0.0)), std::sqrt(next_lambda_) - omega[k], damping_[k]);
+    record(std::sqrt(std::max(out.dot(accelerated), 0.0)), std::sqrt(next_lambda_) - omega[k], damping_[k]);
   }
   if (!(worst <= kCoupling)) refuse_coupled_damping(worst);
 }
@@ -192,13 +194,13 @@ void ModalBasis::refuse_coupled_damping(double share) const {
   };
   const auto [what, remedy] =
       has("dashpots")  ? std::pair{"dashpots", "Remove the dashpots"}
-      : has("springs") ? std::pair{"stiffness damping, of which springs have none,",
+      : has("springs") ? std::pair{"stiffness damping, which the springs do not have,",
                                    "Take damping.mass in place of damping.stiffness, or softer springs"}
                        : std::pair{"damping that differs among regions", "Give all regions the same stiffness damping"};
-  throw ConfigError(fmt::format(
-      "modal needs damping that does not couple the modes, alpha M + beta K; here {} couples them (to {:.2g} of an "
-      "amplitude, {:.0e} is allowed). {}, or use another integrator",
-      what, share, kCoupling, remedy));
+  throw ConfigError(
+      fmt::format("modal needs damping that does not couple the modes, alpha M + beta K; here {} couples them (to "
+                  "{:.2g} of an amplitude, {:.0e} is allowed). {}, or use another integrator",
+                  what, share, kCoupling, remedy));
 }
 
 void ModalBasis::factor() {
@@ -213,13 +215,13 @@ void ModalBasis::factor() {
     if (solver_->factor(values.data()) == FactorStatus::ok) return;
   }
   throw RunError(
-      "the stiffness is not positive definite, and no small shift makes it so: modal has no static response "
-      "of the modes left out; use another integrator");
+      "the stiffness is not positive definite, and no small shift makes it so: modal has no static response of the "
+      "modes left out; use another integrator");
 }
 
 Vector ModalBasis::coordinates(const Vector& q) const { return shapes_.transpose() * times_mass(q); }
 
-Vector ModalBasis::static_rest(const Vector& f, const Vector& modal) const {
+Vector ModalBasis::static_correction(const Vector& f, const Vector& modal) const {
   if (complete_) return Vector::Zero(f.size());
   const Vector left_out = f - times_mass(shapes_ * modal);
   Vector u(f.size());
@@ -229,12 +231,12 @@ Vector ModalBasis::static_rest(const Vector& f, const Vector& modal) const {
 }
 
 Vector ModalBasis::times_mass(const Vector& x) const { return product(model_.pattern(), mass_, x); }
-Vector ModalBasis::times_damping(const Vector& x) const { return product(model_.pattern(), drag_, x); }
+Vector ModalBasis::times_damping(const Vector& x) const { return product(model_.pattern(), damping_entries_, x); }
 Vector ModalBasis::times_stiffness(const Vector& x) const { return product(model_.pattern(), stiffness_, x); }
 
 std::size_t ModalBasis::bytes() const {
-  return sizeof(double) * (stiffness_.size() + mass_.size() + drag_.size() + at_.stiffness.size() + at_.damping.size() +
-                           static_cast<std::size_t>(shapes_.size()));
+  return sizeof(double) * (stiffness_.size() + mass_.size() + damping_entries_.size() + at_.stiffness.size() +
+                           at_.damping.size() + static_cast<std::size_t>(shapes_.size()));
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// A trial run of `modal`, which tells how much of a motion a number of modes leaves out.
+// A trial run of `modal`, which measures the share of the motion that a given number of modes leaves out.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,16 @@
 
 namespace orthodyn {
 
-// As ModalTruncation has them: without dimension, in the mass norm, of the largest displacement and velocity.
+// Result of a trial run; the shares are those of ModalTruncation.
 struct ModalTrial {
   double displacement_left_out = 0, velocity_left_out = 0;
   long steps = 0;
 };
 
-// Runs `task` with the `modes` lowest modes, the options and the step limits of a run; there are no outputs.
-// None if it takes more than `most_steps`. Shares of 1 if the modes miss the motion of the initial state.
-// Precondition: the model is linear and symmetric, and one process holds it. Throws ConfigError where modes cannot
-// serve it, RunError and RecoverableError as a run does.
+// Runs `task` with the `modes` lowest modes and without outputs. Returns nothing if the run takes more than
+// `most_steps` steps. Returns shares of 1 if the modes do not contain the motion that the initial state and loads
+// cause. Precondition: the model is linear and symmetric, on one process. Throws ConfigError if the modes cannot be
+// used, and RunError or RecoverableError if a run would.
 std::optional<ModalTrial> try_modal(const Model& model, const Task& task, const ErrorControl& control, int modes,
                                     long most_steps);
 

@@ -1,46 +1,52 @@
-// What a motion by some of the modes leaves out, as a share of it, in the mass norm of displacements.
+// Estimates the motion that a set of modes leaves out, relative to the whole motion, in the mass norm |x|^2 = x^T M x.
 //
-// The modes left out are taken to follow their load statically, u. What that misses of one of them obeys
-// r'' + d r' + lambda r = -(u'' + d u'), and begins with what the state of the start differs from u:
+// The modes left out are replaced by their static response u = S (f - M Phi Phi^T f) (modal_basis.h). For one of them,
+// with eigenvalue lambda and modal damping d, the error r of this response obeys
 //
-//   vibrations that a start, or a jump of u or u' at a kink of the load, sets off: their amplitude is
-//     (|e_q|^2 + (M e_v)' S (M e_v))^(1/2), exactly, undamped; they decay as the lowest mode left out does;
-//   the lag of the response: |S (M u'' + D u')|, the next term of the expansion for loads that vary slowly.
+//   r'' + d r' + lambda r = -(u'' + d u').
 //
-// A load that varies as fast as the modes left out, up to resonance with one of them, is beyond the second: it then is
-// as large as u itself or larger, and no bound.
+// The error has two parts:
+//
+//   Free vibrations, caused by a start or by a jump of u or u' at a kink of the load. They start with the errors e_q of
+//   the position and e_v of the velocity. Without damping their amplitude is sqrt(|e_q|^2 + (M e_v)^T S (M e_v)),
+//   exactly. They decay like the lowest mode left out.
+//
+//   The lag of the response, |S (M u'' + D u')|: the next term of the expansion for slowly varying loads.
+//
+// The lag is not a bound if the load varies as fast as the modes left out (resonance). It is then at least as large as
+// u itself.
 #pragma once
 
-#include "integrators/native/modal_motion.h"
+#include "integrators/native/modal_load.h"
 
 namespace orthodyn {
 
 class ModalTruncation {
  public:
-  // `basis` must outlive this.
+  // `basis` must outlive this object.
   explicit ModalTruncation(const ModalBasis& basis) : basis_(basis) {}
 
-  // A start from a state, of which the modes take up `begin`, under the load of the first step.
+  // Records a start from a state with modal coordinates `begin`. `load`: load of the first step.
   void start(const State& from, const ModalState& begin, const StepLoad& load);
 
-  // A step.
+  // Records one step.
   void step(const ModalState& begin, const ModalState& end, const StepLoad& load);
 
-  // The motion that goes on from a state under the load at `theta` of the step.
-  void reach(const ModalState& state, const StepLoad& load, double theta);
+  // Records the amplitudes with which the motion would continue from a state under the constant load at `theta`.
+  void record_motion(const ModalState& state, const StepLoad& load, double theta);
 
-  // Of the largest displacement and the largest velocity; 0 where nothing has moved.
+  // Motion left out as a share of the largest displacement or velocity; 0 if nothing has moved.
   double displacement_share() const { return motion_ > 0 ? displacement_ / motion_ : 0; }
   double velocity_share() const { return speed_ > 0 ? velocity_ / speed_ : 0; }
 
  private:
-  void ring(const Vector& e_q, const Vector& e_v);
-  void lag(double h, const Vector& u_rate, const Vector& u_acceleration);
+  void add_free_vibration(const Vector& e_q, const Vector& e_v);
+  void update_lag(double h, const Vector& u_rate, const Vector& u_acceleration);
 
   const ModalBasis& basis_;
-  double ringing_ = 0, ringing_speed_ = 0;  // present amplitudes, squared
-  double displacement_ = 0, velocity_ = 0;  // the largest amplitudes so far
-  double motion_ = 0, speed_ = 0;
+  double free_displacement2_ = 0, free_velocity2_ = 0;  // current squared amplitudes
+  double displacement_ = 0, velocity_ = 0;              // largest amplitudes left out so far
+  double motion_ = 0, speed_ = 0;                       // largest amplitudes of the motion so far
 };
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Keys of our own implicit methods: error control or a fixed step, a linear solver, Newton's method.
+// Keys of the native implicit methods: error control or a fixed step, linear solver, Newton's method.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// When Newton's matrix is made anew: when convergence asks for it, at each step, at each iteration.
+// When the tangent is recomputed. lazy: when convergence requires it; modified: at each step; full: at each iteration.
 enum class NewtonKind { lazy, modified, full };
 
 template <>
@@ -19,14 +19,14 @@ struct EnumNames<NewtonKind> {
       {{NewtonKind::lazy, "lazy"}, {NewtonKind::modified, "modified"}, {NewtonKind::full, "full"}}};
 };
 
-// Of methods that solve with A = M + w_d D + w_k K.
+// Options of methods that solve linear systems with A = M + w_d D + w_k K.
 struct LinearOptions : ErrorControl, FixedStep, SolverOptions {
-  // These keys, in a Spec of a struct derived from this one.
+  // Spec with these keys for a struct derived from this one.
   template <class T>
   static Spec<T> spec_for();
 };
 
-// Of methods whose stages are found by Newton's method.
+// Options of methods that solve their stages by Newton's method.
 struct NewtonOptions : LinearOptions, NewtonLimits {
   NewtonKind newton = NewtonKind::lazy;
 
@@ -37,7 +37,7 @@ struct NewtonOptions : LinearOptions, NewtonLimits {
 template <class T>
 Spec<T> LinearOptions::spec_for() {
   auto spec = ErrorControl::spec_for<T>();
-  FixedStep::add_to(spec, "Fixed step, instead of error control.");
+  FixedStep::add_to(spec, "Fixed step instead of error control.");
   SolverOptions::add_to(spec, SolverPaths::reduced);
   return spec;
 }

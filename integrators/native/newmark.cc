@@ -1,5 +1,4 @@
-// Newmark's method (Newmark 1959): the acceleration varies between the ends of the step as beta and gamma say.
-// By default it is their mean, the trapezoidal rule.
+// Newmark's method (Newmark 1959). The defaults give the trapezoidal rule (constant average acceleration).
 #include "integrators/native/alpha_method.h"
 
 namespace orthodyn {

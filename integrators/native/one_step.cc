@@ -7,13 +7,14 @@
 #include <limits>
 #include <utility>
 
-#include "integrators/finite_force.h"
+#include "integrators/run_checks.h"
 
 namespace orthodyn {
 
 namespace {
 constexpr int kMostAttempts = 20, kMostHalvings = 10;
-// Times the step that Newton could not take; and by how much each step after it may come nearer to that one.
+// kAfterNewton: factor for the step after a failure of Newton's method or of the force. kRelease: factor by which the
+// limit set then grows with each accepted step.
 constexpr double kAfterNewton = 0.5, kRelease = 1.05;
 }  // namespace
 
@@ -43,14 +44,11 @@ void OneStep::start(const State& state) {
   try {
     force(now_.t, now_.q, now_.v, now_.a);
   } catch (const RecoverableError& e) {
-    throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
-                               "state and the loads",
-                               name_, now_.t, e.what()),
-                   Reason::force);
+    throw initial_force_error(name_, now_.t, e.what());
   }
   model_.solve_mass(now_.a);
   before_ = now_;
-  control_ = DeadbandStepControl(orders().estimate);
+  control_ = PredictiveStepController(orders().estimate);
   h_ = options_.h0.value_or(0);
   newton_limit_ = std::numeric_limits<double>::infinity();
   restarted();
@@ -58,10 +56,7 @@ void OneStep::start(const State& state) {
 
 StepInfo OneStep::step(double t_stop) {
   if (statistics_.steps >= options_.max_steps)
-    throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
-                               "or integrator.{}",
-                               name_, now_.t, statistics_.steps, options_.step ? "step" : "rtol"),
-                   Reason::too_many_steps);
+    throw too_many_steps_error(name_, now_.t, statistics_.steps, options_.step ? "integrator.step" : "integrator.rtol");
   if (options_.step) advance_by_fixed_step(t_stop);
   else advance_adaptively(t_stop);
   ++statistics_.steps;
@@ -77,7 +72,7 @@ void OneStep::interpolate(double t, State& out) const {
     out.v = now_.v;
     return;
   }
-  // Positions and velocities of a method of order 1 do not fit one polynomial: between them its velocity would
+  // Positions and velocities of a method of order 1 fit no common polynomial: the velocity of the polynomial would
   // oscillate.
   if (orders().method == 1) interpolate_linearly(before_, now_, t, out.q, out.v);
   else orthodyn::interpolate(before_, now_, t, out.q, out.v);
@@ -129,7 +124,7 @@ void OneStep::advance_adaptively(double t_stop) {
       accept(h);
       const double factor = control_.after_success(h, error_);
       h_ = h * (refused ? std::min(factor, 1.0) : factor);
-      if (!refused && h < planned) h_ = std::max(h_, planned);  // shortened by t_stop only
+      if (!refused && h < planned) h_ = std::max(h_, planned);  // shortened only by t_stop or h_max
       newton_limit_ *= kRelease;
       h_ = std::min(h_, newton_limit_);
       return;
@@ -147,14 +142,14 @@ double OneStep::length(double t_stop) const {
   return length_of_step(h, t_stop - now_.t);
 }
 
-// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative, here with the time of
-// the look as the unit of time, so that the step does not depend on that of the scene. The second derivative is looked
-// for at no round part of the span, where a periodic load might be what it is now.
+// First step (s) by the norms of the first and second derivatives (Hairer, Norsett & Wanner 1993, II.4). The unit of
+// time is the probe interval h, so that the result does not depend on the scene's unit. h is not a round fraction of
+// the time left, because a periodic load might have the same value after a round fraction.
 double OneStep::first_step(double t_stop) {
-  constexpr double kLook = 0.00618034;
+  constexpr double kProbe = 0.00618034;
   const double rest = t_stop - now_.t;
   const double rate = norm_(now_.v, now_.a);
-  double h = kLook * rest;
+  double h = kProbe * rest;
   if (rate > 0) h = std::min(h, 0.01 / (options_.rtol * rate));
   double curvature = 0;
   try {
@@ -206,8 +201,8 @@ void OneStep::give_up(StepResult result, double t, double h) const {
                      Reason::newton);
     default:
       throw RunError(where +
-                         "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look "
-                         "for a kink in the loads",
+                         "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look for a "
+                         "kink in the loads",
                      Reason::error_test);
   }
 }

@@ -1,15 +1,16 @@
-// What our own implicit one-step methods share: both ends of the last step, error control or a fixed step, dense
-// output, counting and the messages of failure. A method says how to attempt a step.
+// Base of the native implicit one-step methods: both ends of the last step, error control or a fixed step, dense
+// output, statistics and failure messages. A derived method implements attempt() and estimate().
 //
-// With error control a step is repeated until the norm of its local error is at most 1 (deadband_step_control.h). With
-// a fixed step one without a solution is halved, up to 2^-10, and put together again: it stays one step. Where that
-// does not help step() throws RunError with the time, the step and the remedy. Not thread-safe: one per run.
+// With error control a step is repeated until the norm of its local error is at most 1 (scaled_norm.h). If a fixed step
+// has no solution, it is divided into substeps, down to 2^-10 of its length, and still counts as one step. If no
+// solution is found, step() throws RunError with the time, the step and the remedy. Not thread-safe: one object per
+// run.
 #pragma once
 
 #include <string>
 
-#include "integrators/native/deadband_step_control.h"
 #include "integrators/native/native_options.h"
+#include "integrators/native/step_controllers.h"
 #include "integrators/scaled_norm.h"
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"
@@ -28,29 +29,29 @@ class OneStep : public Integrator {
   Decisions decisions() const override;
 
  protected:
-  // Order of the method, and the power of h with which its error estimate falls.
+  // Order of the method, and the power of h to which its error estimate is proportional.
   struct Orders {
     int method, estimate;
   };
   OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales);
 
   virtual Orders orders() const = 0;
-  // Integrator::mean_state().
+  // True if the energy balance uses Integrator::mean_state().
   virtual bool balances_by_mean_velocity() const { return false; }
-  // now() is a new beginning: what is remembered of earlier steps does not hold.
+  // Called when now() is a new initial state, to discard data of earlier steps.
   virtual void restarted() = 0;
-  // One step of length h, s, from now() to next_, whose t is set: writes its q, v and a = M^-1 f. False if no solution
-  // is found; a shorter step is tried then, as it is after a RecoverableError.
+  // Attempts one step of length h (s) from now() to next_: writes q, v and the acceleration a of next_, whose t is set.
+  // False if no solution is found. After false or a RecoverableError a shorter step is tried.
   virtual bool attempt(double h) = 0;
-  // The local error of the last attempt in q, m, and in v, m/s.
+  // Estimates the local error of the last attempt: e_q in m, e_v in m/s.
   virtual void estimate(double h, VectorRef e_q, VectorRef e_v) = 0;
-  // The last attempt, of length h, is taken: next_ is about to become now().
+  // Called when the last attempt, of length h, is accepted, before next_ becomes now().
   virtual void accepted(double) {}
   virtual std::string solver_description() const = 0;
   virtual std::size_t method_bytes() const = 0;
 
   const StepEnd& now() const { return now_; }
-  // f at a state, N. Throws RecoverableError if it is not finite.
+  // Computes f (N) at a state. Throws RecoverableError if it is not finite.
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f);
 
   const Model& model_;
@@ -68,16 +69,16 @@ class OneStep : public Integrator {
   StepResult try_step(double h);
   void accept(double h);
   void count(StepResult result);
-  double resolution() const;  // of time at now()
+  double resolution() const;  // resolution (s) of floating-point time at now()
   [[noreturn]] void give_up(StepResult result, double t, double h) const;
 
   std::string name_;
   LinearOptions options_;
   Scales scales_;
-  DeadbandStepControl control_;
-  double h_ = 0;             // the next step, if error control decides; 0 if it is still to be estimated
-  double newton_limit_ = 0;  // a bound of the next step, where Newton has failed on a longer one
-  double error_ = 0;         // of the last attempt, in units of what is allowed
+  PredictiveStepController control_;
+  double h_ = 0;             // next step with error control, s; 0 if still to be estimated
+  double newton_limit_ = 0;  // bound of the next step after a failure of Newton's method on a longer one, s
+  double error_ = 0;         // error of the last attempt in units of the tolerance
   std::string cause_;        // why the model refused the last attempt, if it did
   StepEnd before_, now_;     // the ends of the last step
   Vector e_q_, e_v_;

@@ -1,13 +1,12 @@
 #include "integrators/native/oscillator.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace orthodyn {
 namespace {
 
-constexpr double kSeries = 4;  // of x and sqrt(y): up to here the series loses two digits at most
+constexpr double kSeries = 4;  // largest x and sqrt(y) for the series, which then loses at most two digits
 constexpr std::size_t kCount = kLoadTerms + 2;
 
 struct Factorials {
@@ -35,7 +34,7 @@ OscillatorPhi by_series(double x, double y) {
   return phi;
 }
 
-// Of a pair of complex roots or of two that are near each other: y is large then, and no smaller than x^2/8.
+// For complex roots and for real roots close to each other: y is large, and y >= x^2/8.
 OscillatorPhi by_recursion(double x, double y) {
   OscillatorPhi phi;
   const double discriminant = y - x * x / 4;
@@ -52,8 +51,8 @@ OscillatorPhi by_recursion(double x, double y) {
   return phi;
 }
 
-// The functions of one argument z <= 0: phi_0 = exp(z), phi_{k+1} = (phi_k - 1/k!) / z.
-OscillatorPhi of_one_root(double z) {
+// The phi functions of one argument z <= 0: phi_0 = exp(z), phi_{k+1} = (phi_k - 1/k!) / z.
+OscillatorPhi single_root_phi(double z) {
   OscillatorPhi phi;
   if (z > -1) {
     phi = kFactorials.reciprocal;
@@ -67,10 +66,10 @@ OscillatorPhi of_one_root(double z) {
   return phi;
 }
 
-// Of two real roots, one at least five times the other.
+// For two real roots, one at least five times the other.
 OscillatorPhi by_differences(double x, double y) {
   const double w = std::sqrt(x * x / 4 - y), far = -(x / 2 + w), near = y / far, distance = near - far;
-  const OscillatorPhi at_near = of_one_root(near), at_far = of_one_root(far);
+  const OscillatorPhi at_near = single_root_phi(near), at_far = single_root_phi(far);
   OscillatorPhi phi;
   phi[0] = (near * at_near[0] - far * at_far[0]) / distance;
   for (std::size_t k = 1; k < kCount; ++k) phi[k] = (at_near[k - 1] - at_far[k - 1]) / distance;

@@ -1,5 +1,6 @@
-// ROS34PW2 (Rang & Angermann 2005): four stages, order 3 with any matrix in place of the Jacobian, embedded order 2,
-// stiffly accurate, L-stable with the exact Jacobian. In the notation of Hairer & Wanner (1996), IV.7:
+// ROS34PW2 (Rang & Angermann 2005): four stages, order 3 with any matrix instead of the Jacobian, embedded order 2,
+// stiffly accurate, L-stable with the exact Jacobian. For y' = f(y) with Jacobian J, in the notation of Hairer & Wanner
+// (1996), IV.7:
 //
 //   k_i = h f(y0 + sum_j alpha_ij k_j) + h J sum_j gamma_ij k_j,   y1 = y0 + sum_i b_i k_i
 #pragma once

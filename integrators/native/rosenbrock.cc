@@ -1,10 +1,11 @@
-// A Rosenbrock method for any matrix W in place of the Jacobian (ros34pw2.h), in the form that multiplies no stage by J
-// (Hairer & Wanner 1996, IV.7): with u = Gamma k,
+// A Rosenbrock method for y' = f(t, y) that permits any matrix W instead of the Jacobian (ros34pw2.h), in the form
+// without products by the Jacobian (Hairer & Wanner 1996, IV.7). With u = Gamma k, where Gamma is the matrix of the
+// gamma_ij, gamma_i its row sums and gamma its diagonal entry,
 //
 //   (I - gamma h W) u_i = gamma (h f(t_i, y0 + sum_j a_ij u_j) + sum_j c_ij u_j + gamma_i h^2 df/dt)
-//   y1 = y0 + sum_j m_j u_j
+//   y1 = y0 + sum_j m_j u_j.
 //
-// and one correction of Newton's method at the end (correct below).
+// At the end of the step, correct() adds one Newton correction.
 #include "integrators/native/linearly_implicit.h"
 #include "integrators/native/ros34pw2.h"
 #include "integrators/native/time_difference.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr int kStages = 4;
 
-// The error test is held to rtol divided by this, or errors of stiff bodies that turn add up (docs/decisions.md).
+// The error test uses rtol divided by this; otherwise errors of rotating stiff bodies accumulate (docs/decisions.md).
 constexpr double kStrictness = 10;
 
 LinearOptions stricter(LinearOptions options) {
@@ -23,12 +24,12 @@ LinearOptions stricter(LinearOptions options) {
 }
 
 // The coefficients for u = Gamma k.
-struct Transformed {
+struct TransformedTable {
   Eigen::Matrix4d a, c;
-  Eigen::Vector4d m, error, t, gamma;  // t_i = t0 + t_i h, gamma_i
-  Eigen::Vector4d slope;               // h y' at the end: the last k, for the method is stiffly accurate
+  Eigen::Vector4d m, error, t, gamma;  // stage times are t0 + t[i] h; gamma[i] = gamma_i
+  Eigen::Vector4d slope;               // gives h y' at the end, the last k, since the method is stiffly accurate
 
-  Transformed() {
+  TransformedTable() {
     const Ros34Pw2 given;
     const Eigen::Matrix4d inverse = given.gamma.inverse();
     a = given.alpha * inverse;
@@ -68,7 +69,7 @@ class Rosenbrock : public LinearlyImplicit {
     return true;
   }
 
-  // The embedded method does not see what the correction sees.
+  // Adds the size of the correction, because the embedded method does not detect the error that the correction removes.
   void estimate(double, VectorRef e_q, VectorRef e_v) override {
     e_q = c_q_.cwiseAbs() + (u_q_ * table_.error).cwiseAbs();
     e_v = c_v_.cwiseAbs() + (u_v_ * table_.error).cwiseAbs();
@@ -91,9 +92,10 @@ class Rosenbrock : public LinearlyImplicit {
     solve_.solve(u_q_.col(i), p_, u_q_.col(i), u_v_.col(i));
   }
 
-  // Linear stages leave the acceleration of the last one out of balance with the force at the end where the force of
-  // stiff modes bends, as in a body that turns. Without the correction, which is of the method's order, a pendulum on
-  // one node gained 1,000 J of 50 J at rtol 1e-3; with it 1.7 J.
+  // The stages are linear. If the force of stiff modes is nonlinear, as in a rotating body, the acceleration of the
+  // last stage does not balance the force at the end. This Newton correction restores the balance and keeps the order
+  // of the method. Without it a pendulum with an energy of 50 J, held at one node, gained 1,000 J at rtol 1e-3; with
+  // it, 1.7 J.
   void correct(double h) {
     force(next_.t, next_.q, next_.v, f_);
     model_.multiply_mass(u_v_ * table_.slope, p_);
@@ -110,9 +112,9 @@ class Rosenbrock : public LinearlyImplicit {
     f_t_ = (f_t_ - force_now()) / (later - t);
   }
 
-  const Transformed table_;
+  const TransformedTable table_;
   Eigen::MatrixXd u_q_, u_v_;       // a column per stage
-  Vector f_, p_, f_t_, c_q_, c_v_;  // c: the correction
+  Vector f_, p_, f_t_, c_q_, c_v_;  // c_q_, c_v_: the correction
 };
 
 class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearOptions {
@@ -123,7 +125,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
     using C = RosenbrockChoice;
     static const auto s =
         LinearOptions::spec_for<C>().key("tangent_steps", &C::tangent_steps,
-                                         "Steps for which a tangent is kept, if none of them fails.", {.range = {1}});
+                                         "Steps for which a tangent is kept; a failed step renews it.", {.range = {1}});
     return s;
   }
   static MethodFacts facts() {
@@ -139,7 +141,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
 
 const bool rosenbrock_registered = Registry<IntegratorChoice>::add<RosenbrockChoice>(
     "rosenbrock",
-    "A Rosenbrock method of order 3 for old or inexact tangents: five linear solves per step, no iteration.");
+    "Rosenbrock method of order 3 that permits old or inexact tangents: five linear solves per step, no iteration.");
 
 }  // namespace
 }  // namespace orthodyn

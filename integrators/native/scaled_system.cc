@@ -16,7 +16,7 @@ ScaledSystem::ScaledSystem(const Model& model, double rtol, const Scales& scales
       damping_(model.pattern().row.size()),
       slope_(Vector::Zero(n_)),
       force_(n_),
-      drag_(n_) {}
+      damping_force_(n_) {}
 
 void ScaledSystem::rate(const Vector& v, const Vector& a, Vector& F) const {
   F.resize(size_);
@@ -36,8 +36,8 @@ void ScaledSystem::multiply(const Eigen::Ref<const Vector>& x, VectorRef y) {
   model_.pattern().multiply(stiffness_.data(), x.head(n_), force_);
   force_ *= -q_unit_ / v_unit_;
   if (damped_) {
-    model_.pattern().multiply(damping_.data(), x.segment(n_, n_), drag_);
-    force_ -= drag_;
+    model_.pattern().multiply(damping_.data(), x.segment(n_, n_), damping_force_);
+    force_ -= damping_force_;
   }
   model_.solve_mass(force_);
   y.head(n_) = v_unit_ / q_unit_ * x.segment(n_, n_);

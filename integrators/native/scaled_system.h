@@ -1,11 +1,11 @@
-// The first-order system of a model and its Jacobian in units of the tolerance:
+// The first-order system of a model and its Jacobian in units of the tolerance, with the position scale s_q and the
+// velocity scale s_v:
 //
 //   z = (q / u_q, v / u_v, t / u_t),   u_q = rtol s_q,   u_v = rtol s_v,   u_t = rtol s_q / s_v,
 //   z' = F(z) = (v / u_q, M^-1 f / u_v, 1 / u_t),
 //   J = dF/dz = (0, u_v/u_q, 0;  -u_q/u_v M^-1 K, -M^-1 D, u_t/u_v d(M^-1 f)/dt;  0, 0, 0).
 //
-// The last row and column are there only if f depends on time. An error whose root mean square is 1 is at
-// tolerance.
+// The last row and column exist only if f depends on time. An error of z with root mean square 1 is at the tolerance.
 #pragma once
 
 #include <vector>
@@ -16,24 +16,24 @@ namespace orthodyn {
 
 class ScaledSystem {
  public:
-  // `model` must outlive this.
+  // `model` must outlive this object.
   ScaledSystem(const Model& model, double rtol, const Scales& scales);
 
   Eigen::Index size() const { return size_; }
   bool with_time() const { return size_ > 2 * n_; }
 
-  // F, of v and a = M^-1 f.
+  // Computes F from v and a = M^-1 f.
   void rate(const Vector& v, const Vector& a, Vector& F) const;
 
-  // Takes K and D at a state; where f depends on time set_slope() gives d(M^-1 f)/dt, m/s^3, too. Throws
-  // RecoverableError where the model does.
+  // Sets K and D at a state. If f depends on time, set_slope() must also set d(M^-1 f)/dt (m/s^3). Throws the model's
+  // RecoverableError.
   void linearize(const State& at);
   void set_slope(const Vector& slope) { slope_ = slope; }
 
-  // Precondition: linearize(). Uses work space: not thread-safe.
+  // Computes y = J x. Precondition: linearize() has been called. Not thread-safe.
   void multiply(const Eigen::Ref<const Vector>& x, VectorRef y);  // y = J x
 
-  // q and v moved by a change of z.
+  // Adds a change z of the scaled unknowns to q and v.
   void move(const Vector& z, Vector& q, Vector& v) const;
 
   double rms(const Vector& z) const;
@@ -46,7 +46,7 @@ class ScaledSystem {
   Linearization linearization_;
   std::vector<double> stiffness_, damping_;
   bool damped_ = false;
-  Vector slope_, force_, drag_;
+  Vector slope_, force_, damping_force_;
 };
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Singly diagonally implicit Runge-Kutta methods, stiffly accurate and L-stable: all stages have one matrix.
+// Singly diagonally implicit Runge-Kutta methods, stiffly accurate and L-stable. All stages share one matrix.
 // Order 2 and 3: Alexander (1977); order 4: Hairer & Wanner (1996), table IV.6.5.
 #include <cmath>
 
@@ -7,12 +7,12 @@
 namespace orthodyn {
 namespace {
 
-// The estimate is the term g J^2 f of the local error, which is all of it for linear models without loads, from the
-// second divided difference of the slopes at 0, g and 1.
+// The error estimate is the J^2 f term of the local error (the complete error for linear models without loads), from
+// the second divided difference of the slopes at 0, g and 1.
 DirkTable order_2() {
   const double g = 1 - std::sqrt(0.5);
   const double missing = 1.0 / 6 - g * g * (3 - 2 * g);  // 1/6 - b A c
-  const double scale = missing / g;                      // the divided difference has d A c = g
+  const double scale = missing / g;                      // the divided difference d satisfies d A c = g
   return {2, 3, {0, g, 1}, {{0, g}, {0, 1 - g, g}}, {scale / g, -scale / (g * (1 - g)), scale / (1 - g)}};
 }
 

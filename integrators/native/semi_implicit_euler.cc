@@ -1,5 +1,5 @@
-// Semi-implicit Euler, the step of Baraff & Witkin (1998): backward Euler with the force linearised at the beginning,
-// (I - h J) u = h f(y0), y1 = y0 + u. One linear solve a step.
+// Semi-implicit Euler (Baraff & Witkin 1998) for y' = f(y): backward Euler with f linearised at the start of the step,
+// (I - h J) u = h f(y0), y1 = y0 + u. It costs one linear solve per step.
 #include "integrators/native/linearly_implicit.h"
 
 namespace orthodyn {
@@ -26,8 +26,8 @@ class SemiImplicitEuler : public LinearlyImplicit {
     return true;
   }
 
-  // Half the change of the slope over the step, damped like the solution: (I - h J)^-1 h (f(y1) - f(y0)) / 2. One
-  // more solve.
+  // The error estimate is (I - h J)^-1 h (f(y1) - f(y0)) / 2: half the change of the slope times h, damped like the
+  // solution. It costs one more solve.
   void estimate(double h, VectorRef e_q, VectorRef e_v) override {
     dq_ = 0.5 * h * dv_;
     dv_ = 0.5 * h * (force_next() - force_now());

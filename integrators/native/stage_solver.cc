@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/finite_force.h"
+#include "integrators/run_checks.h"
 #include "lib/core/errors.h"
 
 namespace orthodyn {
 
 namespace {
-constexpr double kWeightDrift = 0.25;          // of w_k, up to which the factor is kept and corrections are scaled
-constexpr double kSameWeight = 1e-12;          // two equal steps are equal but for round-off
-constexpr double kLinearShare = 0.05;          // of what Newton's method may leave, what an iterative linear solver may
-constexpr double kSlow = 0.5;                  // a rate at which a new tangent pays
-constexpr double kCorrectionRoundOff = 1e-10;  // of the scales: corrections below it that do not shrink are round-off
-constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what is less is round-off
+// Relative change of w_k up to which the factor is kept and corrections are scaled.
+constexpr double kWeightDrift = 0.25;
+constexpr double kSameWeight = 1e-12;  // relative difference between equal steps by round-off
+constexpr double kLinearShare = 0.05;  // tolerance of an iterative linear solver / Newton's tolerance
+constexpr double kSlow = 0.5;          // convergence rate above which a new tangent pays
+// Relative to the scales: smaller corrections that do not shrink are round-off.
+constexpr double kCorrectionRoundOff = 1e-10;
+constexpr double kLeastContractionFactor = 1e-3;  // for nonlinear models; smaller values are round-off
 }  // namespace
 
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
@@ -38,11 +40,11 @@ void StageSolver::begin_step() {
 
 bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
   guess_ = x;
-  const bool anew = stale_ || kind_ == NewtonKind::full;
-  if (!prepare(stage, x, anew)) return false;
+  const bool renew = stale_ || kind_ == NewtonKind::full;
+  if (!prepare(stage, x, renew)) return false;
   const bool each_time = kind_ == NewtonKind::full;
   if (iterate(stage, x, q, v, each_time)) return true;
-  const bool nothing_to_renew = (anew || model_.traits().linear) && drift(stage) == 0;
+  const bool nothing_to_renew = (renew || model_.traits().linear) && drift(stage) == 0;
   if (!nothing_to_renew) {
     x = guess_;
     if (prepare(stage, x, true) && iterate(stage, x, q, v, each_time)) return true;
@@ -52,15 +54,15 @@ bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef 
   return prepare(stage, x, true) && iterate(stage, x, q, v, true);
 }
 
-// By how much the factor's weights differ from the stage's.
+// Relative difference of w_k between the factor and the stage.
 double StageSolver::drift(const Stage& stage) const {
   const double drift = std::abs(stage.w_k / matrix_.weights().stiffness - 1);
   return drift < kSameWeight ? 0 : drift;
 }
 
-bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool anew) {
-  if (anew) linearize(stage, x);
-  if (factored_ && drift(stage) <= (anew ? 0 : kWeightDrift)) {
+bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool renew) {
+  if (renew) linearize(stage, x);
+  if (factored_ && drift(stage) <= (renew ? 0 : kWeightDrift)) {
     if (drift(stage) > 0) contraction_factor_ = 1;
     return true;
   }
@@ -77,7 +79,7 @@ void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
 }
 
 bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time) {
-  // The rate may have become worse since it was measured, but not that of a linear model.
+  // The rate may have worsened since it was measured, except for a linear model.
   if (!model_.traits().linear)
     contraction_factor_ = std::pow(std::max(contraction_factor_, kLeastContractionFactor), 0.8);
   double last = 0;
@@ -111,17 +113,17 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
   r_ -= work_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare * tolerance_, stage.w_k, stage.w_d));
   matrix_.solve(r_, dx_);
-  // As CVODE scales the corrections of a factor whose gamma is no longer the current one.
+  // Scales the correction for outdated weights, as CVODE does for an outdated gamma.
   dx_ *= 2 / (1 + stage.w_k / matrix_.weights().stiffness);
   ++statistics_.newton_iterations;
 }
 
-// Learns the rate from two corrections (`last` is 0 at the first). False if they do not become smaller.
+// Updates the rate from the norms of two corrections (last = 0: first correction). False if they do not shrink.
 bool StageSolver::shrinks(double size, double last) {
   if (last == 0) return true;
   const double rate = size / last;
   if (rate >= 1) {
-    contraction_factor_ = 0;  // round-off is as good as it gets
+    contraction_factor_ = 0;  // converged to round-off
     return size * norm_.rtol() <= kCorrectionRoundOff;
   }
   contraction_factor_ = rate / (1 - rate);

@@ -2,10 +2,10 @@
 //
 //     M x = f(t, q, v),    q = q* + w_k x,    v = v* + w_d x.
 //
-// Each correction solves (M + w_d D + w_k K) dx = f - M x. K, D and the factor outlive stages and steps: with
-// `lazy` the factor is renewed when the weights have moved too far, and K and D when convergence is slow; a fixed step
-// is tried with a new tangent for each iteration before it is given up. The
-// iteration and what it remembers of its rate follow Hairer & Wanner (1996), IV.8.
+// Each correction dx solves A dx = f - M x, A = M + w_d D + w_k K. K, D and the factor of A are kept across stages and
+// steps. With `newton: lazy`, A is refactored if the weights have changed too much, and K and D are recomputed if
+// convergence is slow. Before a fixed step fails, it is tried with a new tangent in each iteration. Iteration and
+// convergence rate follow Hairer & Wanner (1996), IV.8.
 #pragma once
 
 #include "integrators/native/native_options.h"
@@ -22,20 +22,21 @@ class StageSolver {
     double w_d = 0, w_k = 0;  // s, s^2
   };
 
-  // Throws ConfigError if the linear solver does not take the model's matrices. `model` and `statistics`
-  // must outlive this.
+  // Throws ConfigError if the linear solver does not accept the model's matrices. `model` and `statistics`
+  // must outlive this object.
   StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm, Statistics& statistics);
 
-  // To be called when a new step begins, and when the state may be far from the last one.
+  // Call begin_step() before the first stage of a step, and restart() if the state may be far from the last one.
   void begin_step();
   void restart() { stale_ = true; }
 
-  // From a guess of x, m/s^2, to the solution, and q and v there. False if Newton's method does not converge. Throws
-  // RecoverableError where the force cannot be evaluated.
+  // In: a guess of x (m/s^2). Out: the solution x, and q and v there. False if Newton's method does not converge.
+  // Throws RecoverableError if the force cannot be evaluated.
   bool solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
 
-  // (e_q, e_v) <- (I - w_d J)^-1 (e_q, e_v) with the last factor: what is stiff in an error estimate is damped as
-  // it is in the solution (Shampine 1984; Hosea & Shampine 1996). For w_k = w_d^2 exact, else of the same size.
+  // Multiplies (e_q, e_v) by (I - w_d J)^-1 with the last factor, where J is the Jacobian of (v, M^-1 f). This damps
+  // the stiff part of an error estimate as the method damps it in the solution (Shampine 1984; Hosea & Shampine 1996).
+  // The result is exact if w_k = w_d^2, else of the right magnitude.
   void filter(VectorRef e_q, VectorRef e_v);
 
   std::size_t factor_bytes() const { return matrix_.factor_bytes(); }
@@ -43,8 +44,8 @@ class StageSolver {
   std::string description() const { return matrix_.description(); }
 
  private:
-  // Factors the stage's matrix, with a new tangent if `anew`. False if there is no factor.
-  bool prepare(const Stage& stage, const ConstVectorRef& x, bool anew);
+  // Factors the stage's matrix, with a new tangent if `renew`. False if the matrix cannot be factored.
+  bool prepare(const Stage& stage, const ConstVectorRef& x, bool renew);
   double drift(const Stage& stage) const;
   void linearize(const Stage& stage, const ConstVectorRef& x);
   bool iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time);
@@ -53,15 +54,15 @@ class StageSolver {
 
   const Model& model_;
   NewtonKind kind_;
-  bool exhaustive_;  // a fixed step: a new tangent at each iteration is tried before the stage is given up
+  bool exhaustive_;  // fixed step: before failing, tries a new tangent in each iteration
   double tolerance_;
   int max_iterations_;
   ScaledNorm norm_;
   Statistics& statistics_;
   NewtonMatrix matrix_;
-  bool stale_ = true;  // K and D are to be made anew before they are used
+  bool stale_ = true;  // K and D must be recomputed before use
   bool linearized_ = false, factored_ = false;
-  double contraction_factor_ = 1;  // rate / (1 - rate) of the last iteration with this matrix factor
+  double contraction_factor_ = 1;  // rate / (1 - rate) of the last iteration with this factor
   Vector r_, dx_, guess_, work_;
 };
 

@@ -1,5 +1,5 @@
-// Where a difference quotient in time, (f(later) - f(t)) / (later - t), is taken for a step h from t: into the
-// step, for a kink may lie before it, and no closer than t has digits for. Divide by later - t, which is exact.
+// The time `later` (s) of a difference quotient (f(later) - f(t)) / (later - t) at the start t of a step h. It lies
+// inside the step, because f may have a kink at t, and is distinguishable from t. Divide by later - t, which is exact.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// TR-BDF2 (Bank et al. 1985): the trapezoidal rule to g h, then the two-step backward differentiation formula.
-// With g = 2 - sqrt 2 both parts have one matrix (Hosea & Shampine 1996).
+// TR-BDF2 (Bank et al. 1985): the trapezoidal rule over the fraction g of the step, then BDF2. With g = 2 - sqrt 2 both
+// parts share one matrix (Hosea & Shampine 1996).
 #include <numbers>
 
-#include "integrators/native/composite_table.h"
+#include "integrators/native/dirk.h"
 
 namespace orthodyn {
 namespace {

@@ -1,4 +1,4 @@
-// Callbacks from SUNDIALS' C code into the model: no exception passes through C.
+// Callbacks from SUNDIALS' C code into the model. No exception passes through C code.
 #pragma once
 
 #include <exception>
@@ -10,14 +10,14 @@
 
 namespace orthodyn::sundials {
 
-// What callbacks share with their integrator.
+// State shared by an integrator and its callbacks.
 struct CallbackContext {
-  std::exception_ptr failure;     // a fatal exception on its way past the C code
+  std::exception_ptr failure;     // a fatal exception, rethrown after the C code has returned
   std::string recoverable_cause;  // why the last evaluation asked for a smaller step
-  std::string message;            // what SUNDIALS said last
+  std::string message;            // SUNDIALS' last error message
 };
 
-// Runs a callback's body: 0, +1 (recoverable: try a smaller step) or -1 (fatal).
+// Runs a callback's body. Returns 0, +1 (recoverable: try a smaller step) or -1 (fatal).
 template <class Body>
 int guarded(CallbackContext& context, Body&& body) {
   try {
@@ -26,7 +26,7 @@ int guarded(CallbackContext& context, Body&& body) {
   } catch (const RecoverableError& e) {
     try {
       context.recoverable_cause = e.what();
-    } catch (...) {  // no memory for the words
+    } catch (...) {  // no memory for the text
       context.recoverable_cause.clear();
     }
     return 1;

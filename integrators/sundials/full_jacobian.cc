@@ -3,13 +3,27 @@
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
+#include "lib/linear/solver.h"
+
 namespace orthodyn::sundials {
+
+namespace {
+
+const bool klu_full_registered =
+    solver_registry()
+        .emplace("klu_full", SolverKind{"SUNDIALS' sparse matrix and KLU on the full 2n x 2n system: the textbook "
+                                        "path, and the baseline; symmetric or not.",
+                                        true, nullptr})
+        .second;
+
+}  // namespace
 
 FullJacobian::FullJacobian(const Model& model)
     : model_(model), full_v_block_(model.traits().damping_matrix || !model.traits().lumped_mass) {
   if (model.ranks())
     throw ConfigError("linear solver 'klu_full' does not run on several ranks; leave it out, or use petsc");
-  // Eigen expands the pattern; the values it carries along say where each entry comes from.
+  // Eigen expands the pattern to both triangles. The values that it expands along with it are the indices of the
+  // entries.
   const Pattern& p = model.pattern();
   std::vector<double> place(p.row.size());
   for (std::size_t k = 0; k < place.size(); ++k) place[k] = static_cast<double>(k);

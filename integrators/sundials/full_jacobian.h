@@ -1,4 +1,5 @@
-// The textbook path: the sparse 2n x 2n Jacobian of the first-order system, for SUNDIALS' own KLU.
+// `klu_full`: the sparse 2n x 2n Jacobian of the first-order system, for SUNDIALS' KLU. The textbook method, kept for
+// comparison.
 //
 // CVODE and ARKODE, y' = (v, M^-1 f):  J = [0, I; -M^-1 K, -M^-1 D]          (lumped mass only)
 // IDA, F = (q' - v, M v' - f):  dF/dy + cj dF/dy' = [cj I, -I; K, cj M + D]
@@ -17,7 +18,7 @@ class FullJacobian {
 
   OwnedMatrix make_matrix(SUNContext context) const;
 
-  // Pattern and values, since CVODE and IDA erase both before they ask. `cj` in 1/s.
+  // Write both the pattern and the values of J, because CVODE and IDA erase both before the call. `cj` in 1/s.
   void fill_first_order(const Linearization& at, SUNMatrix J);
   void fill_ida(double cj, const Linearization& at, SUNMatrix J);
 
@@ -26,9 +27,9 @@ class FullJacobian {
             const std::vector<double>& vv, const Vector& row_scale) const;
 
   const Model& model_;
-  bool full_v_block_;              // D or M couples unknowns
+  bool full_v_block_;              // true if D or M couples unknowns
   std::vector<int> column_start_;  // of the n x n blocks, both triangles
-  std::vector<int> row_, source_;  // row, and where its value stands on the model's pattern
+  std::vector<int> row_, source_;  // of each entry: its row, and the index of its value on the model's pattern
   std::vector<double> k_values_, d_values_;
 };
 

@@ -8,7 +8,6 @@
 #include <memory>
 #include <type_traits>
 
-#include "integrators/sundials/parallel_vector.h"
 #include "integrators/sundials/vector_operations.h"
 #include "integrators/sundials/version.h"
 #include "lib/core/errors.h"
@@ -32,7 +31,7 @@ using OwnedVector = Owned<N_Vector, N_VDestroy>;
 using OwnedMatrix = Owned<SUNMatrix, SUNMatDestroy>;
 using OwnedSolver = Owned<SUNLinearSolver, SUNLinSolFree>;
 
-// Declare it before everything that was made in it: it must die last.
+// Declare a Context before everything created in it, so that it is destroyed last.
 class Context {
  public:
   Context() {
@@ -47,7 +46,13 @@ class Context {
   SUNContext context_ = nullptr;
 };
 
-// `ranks`: those that have parts of the vector, of which `size` entries are this rank's; null for one that is whole.
+// Makes a vector distributed over the ranks (SUNDIALS' MPIPlusX), whose sums and norms are global. This rank's part has
+// the size and the operations of `local`. Free the vector by N_VDestroy(). The code is in liborthodyn_petsc, which
+// links MPI. Throws RunError if memory is short. Precondition: this process is one of several ranks.
+N_Vector parallel_vector_like(N_Vector local, SUNContext context);
+
+// Makes a vector of `size` zeros; with `ranks`, a vector distributed over the ranks, of which this rank holds `size`
+// zeros.
 inline OwnedVector make_vector(Eigen::Index size, SUNContext context, const Ranks* ranks = nullptr) {
   OwnedVector v(N_VNew_Serial(static_cast<sunindextype>(size), context));
   if (!v) throw RunError("SUNDIALS could not allocate a vector", Reason::out_of_memory);
@@ -57,13 +62,13 @@ inline OwnedVector make_vector(Eigen::Index size, SUNContext context, const Rank
   return v;
 }
 
-// All entries that this process has.
+// The entries held by this process.
 inline Eigen::Map<Vector> view(N_Vector v) {
   const sunindextype length = v->ops->nvgetlocallength ? v->ops->nvgetlocallength(v) : N_VGetLength(v);
   return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(length)};
 }
 
-// The integrators' state is y = (q; v).
+// The parts q and v of the integrators' state y = (q, v).
 inline auto positions(N_Vector y) {
   auto all = view(y);
   return Eigen::Map<Vector>(all.data(), all.size() / 2);

@@ -1,6 +1,4 @@
-#include "integrators/sundials/parallel_vector.h"
-
-#include "lib/core/errors.h"
+#include "integrators/sundials/handles.h"
 #include "lib/linear/petsc_library.h"
 
 namespace orthodyn::sundials {

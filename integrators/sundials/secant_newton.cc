@@ -9,9 +9,9 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr double kFastest = 0.3;     // factor by which a rate falls from one estimate to the next, as in CVODE
-constexpr double kParallel = 1e-12;  // of a secant's square, what is not along the other one
-constexpr double kGivenUp = 2;       // growth of a correction at which the solve is given up, as in CVODE
+constexpr double kFastest = 0.3;     // a rate falls by at most this factor from one estimate to the next, as in CVODE
+constexpr double kParallel = 1e-12;  // least share of a secant's square that is orthogonal to the other secant
+constexpr double kGivenUp = 2;       // growth of a correction above which the solve fails, as in CVODE
 
 }  // namespace
 
@@ -93,18 +93,18 @@ int SecantNewton::iteration() const {
 int SecantNewton::correct(N_Vector b) {
   if (const int flag = solve_(b, memory_); flag != 0) return flag;
   if (iteration() == 1) first_rate_ = std::max(kFastest * first_rate_, N_VWrmsNorm(b, weights_) / first_size_);
-  return guarded(callbacks_, [&] { take_in(view(b)); });
+  return guarded(callbacks_, [&] { store(view(b)); });
 }
 
-void SecantNewton::take_in(VectorRef d) {
+void SecantNewton::store(VectorRef d) {
   plain_ = d;
-  if (iteration() == 0) {  // of another step, or with another matrix
+  if (iteration() == 0) {  // a new step or matrix
     known_ = 0;
   } else {
     effect_[0] += plain_;
     change_[0] += effect_[0];
     known_ = std::min(known_ + 1, kDepth);
-    improve(d);
+    apply_secants(d);
   }
   std::rotate(change_.rbegin(), change_.rbegin() + 1, change_.rend());
   std::rotate(effect_.rbegin(), effect_.rbegin() + 1, effect_.rend());
@@ -124,7 +124,7 @@ int SecantNewton::test(double size, double tolerance) {
   return iteration() > 0 && size > kGivenUp * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
 }
 
-void SecantNewton::improve(VectorRef d) const {
+void SecantNewton::apply_secants(VectorRef d) const {
   const auto product = [&](const auto& x, const auto& y) {
     return space_.sum(view(weights_).cwiseAbs2().cwiseProduct(x).dot(y));
   };
@@ -134,14 +134,14 @@ void SecantNewton::improve(VectorRef d) const {
   double g1 = b1 / a11, g2 = 0;
   if (known_ == 2) {
     const double a12 = product(first, second), a22 = product(second, second);
-    const double pivot = a22 - a12 * a12 / a11;  // small where the two tell the same
+    const double pivot = a22 - a12 * a12 / a11;  // small if the two are parallel
     if (pivot > kParallel * a22) {
       g2 = (product(second, d) - a12 * g1) / pivot;
       g1 -= a12 / a11 * g2;
     }
   }
   d -= g1 * change_[0];
-  if (g2 != 0) d -= g2 * change_[1];  // of one known secant the other holds what a solve before left, perhaps NaN
+  if (g2 != 0) d -= g2 * change_[1];  // with one secant, entry 1 is left from an earlier solve and may be NaN
 }
 
 }  // namespace orthodyn::sundials

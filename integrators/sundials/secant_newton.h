@@ -1,13 +1,17 @@
-// Newton's method with the matrix of earlier steps, its corrections improved by the secants of the last two (Anderson
-// 1965, type II of depth 2).
+// Newton's method for F(x) = 0 with the matrix A of an earlier step. Each correction is improved by the last two
+// secants (Anderson 1965, type II, depth 2).
 //
-// With a matrix that is off by its gamma or by the motion since, corrections d_k = -A^-1 F(x_k) shrink by a constant
-// factor along few directions. What the last steps x_i changed of d is known without another force:
-//     dx = d_k - sum_i g_i (dx_i + dd_i),   g minimises |d_k - sum_i g_i dd_i|,
-// with the norm of the error test. The matrix serves longer, and fewer are factorised.
+// If A has an outdated gamma or the body has moved, the corrections d_k = -A^-1 F(x_k) shrink only by a constant factor
+// along a few directions. With the differences dx_i of successive iterates and dd_i of their corrections, the improved
+// correction is
 //
-// Its own test of convergence: the libraries judge the first correction, which no secant improves, by the rate of those
-// of earlier steps, and would take it too soon.
+//     dx = d_k - sum_i g_i (dx_i + dd_i),
+//
+// where the g_i minimise |d_k - sum_i g_i dd_i| in the norm of the error test. This needs no additional force
+// evaluation. Matrices remain useful for longer, so fewer are factored.
+//
+// This class has its own convergence test. The libraries' test judges the first correction, which no secant improves,
+// by the rate of earlier steps and would accept it too early.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -22,17 +26,17 @@ namespace orthodyn::sundials {
 
 class SecantNewton {
  public:
-  // least_rate: corrections are known to shrink by this factor at best, where those of a direct solver may do better.
-  // `space`: that of the model's vectors. `callbacks` takes exceptions of its sums over ranks past SUNDIALS' code.
+  // least_rate: best factor by which corrections can shrink; 0 with a direct solver (NewtonMatrix::least_rate()).
+  // `space`: Model::space(). `callbacks` keeps exceptions thrown by sums over ranks.
   SecantNewton(N_Vector y, SUNContext context, CallbackContext& callbacks, const VectorSpace& space = {},
                double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
-  // To be handed to the library, whose test of convergence is ignored; this must outlive it.
+  // Pass it to the library, whose convergence test is then ignored. This object must outlive the library's memory.
   SUNNonlinearSolver get() const { return solver_.get(); }
 
-  // With the vector that SUNDIALS' iteration has.
+  // Memory (bytes), including the vector held by SUNDIALS' iteration.
   std::size_t bytes() const { return (2 * kDepth + 2) * static_cast<std::size_t>(plain_.size()) * sizeof(double); }
 
  private:
@@ -41,30 +45,29 @@ class SecantNewton {
   static SecantNewton& of(SUNNonlinearSolver solver) { return *static_cast<SecantNewton*>(solver->content); }
   void delegate();
   int solve(N_Vector y0, N_Vector y, N_Vector weights, sunrealtype tolerance, sunbooleantype set_up, void* memory);
-  int correct(N_Vector b);  // the linear solve of one iteration, and what the secants make of it
-  void take_in(VectorRef d);
-  void improve(VectorRef d) const;
+  int correct(N_Vector b);  // linear solve of one iteration, then the secants
+  void store(VectorRef d);
+  void apply_secants(VectorRef d) const;
   int test(double size, double tolerance);
   int iteration() const;
 
-  // SUNDIALS' own iteration does the work; what it calls comes through here.
+  // newton_ is SUNDIALS' iteration; solver_ forwards to it and intercepts its linear solves and its test.
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> newton_, solver_;
   SUNNonlinSolSysFn system_ = nullptr;
   SUNNonlinSolLSetupFn set_up_ = nullptr;
   SUNNonlinSolLSolveFn solve_ = nullptr;
   CallbackContext& callbacks_;
-  void* memory_ = nullptr;      // of the integrator
-  N_Vector weights_ = nullptr;  // of this solve
-  // dx_i + dd_i and dd_i, the latest first; between two iterations dx and -d of the last one.
+  void* memory_ = nullptr;      // memory block of the integrator
+  N_Vector weights_ = nullptr;  // error weights in this solve
+  // dx_i + dd_i and dd_i, latest first. Between two iterations, entry 0 holds dx and -d of the last iteration.
   std::array<Vector, kDepth> change_, effect_;
-  Vector plain_;   // d; nothing is allocated in SUNDIALS' calls
-  int known_ = 0;  // secants
-  // Sizes are norms of the error test.
-  double first_size_ = 0, last_size_ = 0;  // of the first and the last correction of this solve
-  double first_rate_ = 1;                  // by which the first correction leaves errors, from the last solves
+  Vector plain_;                           // d without secants; allocated once, not in SUNDIALS' calls
+  int known_ = 0;                          // number of secants
+  double first_size_ = 0, last_size_ = 0;  // error-test norms of the first and the last correction in this solve
+  double first_rate_ = 1;                  // factor by which a first correction reduces the error, from earlier solves
   double least_rate_;
   VectorSpace space_;
-  double rate_ = 1;  // by which corrections shrink
+  double rate_ = 1;  // factor by which corrections shrink
 };
 
 }  // namespace orthodyn::sundials

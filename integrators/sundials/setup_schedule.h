@@ -1,6 +1,7 @@
-// When Newton's matrix of a step is made anew beforehand. One of earlier steps saves a tangent and a factor where the
-// motion changes it little. Where it does not serve, its iterations are lost before a new one is made after all: large
-// rotations then take a new one at each step, and an old one is tried again now and then.
+// Decides how often CVODE renews Newton's matrix. Keeping the matrix of an earlier step saves a tangent and a
+// factorisation if the motion has changed the matrix little. Otherwise iterations are wasted before a new matrix is
+// made. After repeated failures, as in large rotations, every step therefore gets a new matrix; after 4 to 64 such
+// steps an old matrix is tried again.
 #pragma once
 
 #include <algorithm>
@@ -9,28 +10,28 @@ namespace orthodyn::sundials {
 
 class SetupSchedule {
  public:
-  // The largest number of steps between two set-ups, for the next step.
+  // Largest number of steps between two set-ups, to be set before the next step.
   long interval() const { return forced_left_ > 0 ? 1 : kUsual; }
 
-  // After a step, in which K was made anew or not.
+  // Records a step; `renewed`: K was recomputed in it.
   void note(bool renewed) {
     if (forced_left_ > 0) {
       --forced_left_;
     } else if (!renewed) {
       failures_ = 0;
-      forced_next_ = kFewest;
+      forced_next_ = kMinForced;
     } else if (++failures_ >= kFailures) {
       forced_left_ = forced_next_;
-      forced_next_ = std::min(2 * forced_next_, kMost);
+      forced_next_ = std::min(2 * forced_next_, kMaxForced);
     }
   }
 
  private:
-  static constexpr long kUsual = 20;             // SUNDIALS' own
-  static constexpr int kFailures = 4;            // in a row: an old matrix serves one step of five at best
-  static constexpr int kFewest = 4, kMost = 64;  // steps until it is tried again
+  static constexpr long kUsual = 20;   // CVODE's default
+  static constexpr int kFailures = 4;  // renewals in successive steps after which every step gets a new matrix
+  static constexpr int kMinForced = 4, kMaxForced = 64;  // steps until an old matrix is tried again
   int failures_ = 0;
-  int forced_left_ = 0, forced_next_ = kFewest;  // steps with a new matrix each: still to come, and next time
+  int forced_left_ = 0, forced_next_ = kMinForced;  // steps with a new matrix: remaining, and after the next failures
 };
 
 }  // namespace orthodyn::sundials

@@ -14,9 +14,9 @@ SUNLinearSolver_Type type(SUNLinearSolver S) {
 SUNLinearSolver_ID id(SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; }
 int setup(SUNLinearSolver S, SUNMatrix) { return functions(S).setup(); }
 int solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, sunrealtype tolerance) {
-  // SUNDIALS tells the norm of the sum, the error test has that of the mean.
+  // SUNDIALS gives the tolerance of the weighted 2-norm; the error test uses the root mean square.
   const int flag = functions(S).solve(x, b, tolerance / std::sqrt(static_cast<double>(N_VGetLength(x))));
-  // CVODE, IDA and ARKODE take values that they do not know for success.
+  // CVODE, IDA and ARKODE treat return values that they do not know as success.
   return flag == 0 || !functions(S).iterative ? flag : flag > 0 ? SUNLS_CONV_FAIL : SUNLS_ATIMES_FAIL_UNREC;
 }
 
@@ -40,9 +40,10 @@ OwnedSolver make_solver_adapter(SolverFunctions& solver, SUNContext context) {
   S->ops->setup = setup;
   S->ops->solve = solve;
   if (solver.iterative) {
-    // The library hands over weights, which are known; without this it would take their mean for each of them.
+    // The library passes the error weights, which are already known here. Without this function it would use their
+    // mean.
     S->ops->setscalingvectors = [](SUNLinearSolver, N_Vector, N_Vector) { return 0; };
-    // IDA asks for both. It would take the residual for the solution of a solver that had nothing to do.
+    // IDA calls both functions. If the number of iterations were 0, it would use the residual as the solution.
     S->ops->numiters = [](SUNLinearSolver) { return 1; };
     S->ops->resid = [](SUNLinearSolver) -> N_Vector { return nullptr; };
   }

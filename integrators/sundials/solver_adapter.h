@@ -1,4 +1,4 @@
-// A SUNMatrix and a SUNLinearSolver whose work is done by C++ functions.
+// A SUNMatrix without entries and a SUNLinearSolver that calls C++ functions.
 #pragma once
 
 #include <functional>
@@ -7,18 +7,19 @@
 
 namespace orthodyn::sundials {
 
-// A matrix without entries, for a linear solver that keeps its own: its operations do nothing. Throws RunError if
-// memory is short, as does the next.
+// Makes a matrix whose operations do nothing, for a linear solver that keeps its own matrix. Throws RunError if memory
+// is short.
 OwnedMatrix make_placeholder_matrix(SUNContext context);
 
-// A linear solver, direct or iterative. An iterative one is told how large the error of a solution may be, in the norm
-// of the error test: SUNDIALS' share (eplifac) of what is allowed to Newton's method. Both functions return 0, > 0
-// (recoverable) or < 0 (fatal); `solver` must outlive the handle.
+// The functions of a direct or iterative linear solver. `tolerance` is for iterative solvers: the allowed error of x in
+// the norm of the error test, a share (SUNDIALS' eplifac) of Newton's tolerance. Both functions return 0, > 0
+// (recoverable) or < 0 (fatal).
 struct SolverFunctions {
   std::function<int()> setup;
   std::function<int(N_Vector x, N_Vector b, double tolerance)> solve;
   bool iterative = false;
 };
+// `solver` must outlive the handle. Throws RunError if memory is short.
 OwnedSolver make_solver_adapter(SolverFunctions& solver, SUNContext context);
 
 }  // namespace orthodyn::sundials

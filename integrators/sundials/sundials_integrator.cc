@@ -5,22 +5,63 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/finite_force.h"
-#include "integrators/scaled_norm.h"
+#include "integrators/run_checks.h"
+#include "lib/core/versions.h"
 
 namespace orthodyn::sundials {
 
-SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
+namespace {
+
+const bool version_registered = library_versions().emplace("SUNDIALS", library_version()).second;
+
+}  // namespace
+
+SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& library, const Model& model,
+                                       const Options& options, const Scales& scales, bool implicit)
     : model_(model),
-      settings_(settings),
+      options_(options),
+      scales_(scales),
+      decisions_(scale_decisions(scales)),
       y_(make_vector(size(), context_, model.ranks())),
-      momentum_(model.num_dofs()),
-      name_(std::move(name)) {
-  if (!settings.implicit) return;
-  if (!model.traits().smooth && settings.options.max_newton_iterations < 2)
+      name_(std::move(name)),
+      library_(library) {
+  if (!implicit) return;
+  if (!model.traits().smooth && options.max_newton_iterations < 2)
     throw ConfigError("max_newton_iterations: must be at least 2 if the body may touch something, found 1");
-  if (settings.full) full_.emplace(model);
-  else reduced_.emplace(model, settings.options.linear_solver, settings.options.tangent(), statistics_);
+  newton_system_.emplace(model_, options_, scales_, statistics_, callback_context_);
+}
+
+void SundialsIntegrator::check_mass_for_full_jacobian() const {
+  if (!options_.is_full() || model_.traits().lumped_mass) return;
+  throw ConfigError(
+      "linear_solver klu_full under " + name_ +
+      " needs `mass: lumped` (the inverse of a consistent mass is dense); use ida_bdf, or klu or cholmod");
+}
+
+void SundialsIntegrator::set_error_weights() {
+  require(library_.set_user_data(memory(), this));
+  require(library_.set_error_weights(memory(), [](N_Vector, N_Vector weights, void* user) {
+    const auto& me = *static_cast<SundialsIntegrator*>(user);
+    positions(weights).setConstant(1 / (me.options_.rtol * me.scales_.position));
+    velocities(weights).setConstant(1 / (me.options_.rtol * me.scales_.velocity));
+    return 0;
+  }));
+}
+
+void SundialsIntegrator::set_step_limits() {
+  if (options_.h0) require(library_.set_initial_step(memory(), *options_.h0));
+  if (options_.h_max) require(library_.set_max_step(memory(), *options_.h_max));
+  if (options_.h_min > 0) require(library_.set_min_step(memory(), options_.h_min));
+}
+
+void SundialsIntegrator::use_nonsmooth_newton() {
+  nonsmooth_newton_.emplace(options_.rtol, y(), context_);
+  require(library_.set_nonlinear_solver(memory(), nonsmooth_newton_->get()));
+  nonsmooth_newton_->replace_test();
+}
+
+void SundialsIntegrator::attach_linear_solver() {
+  require(library_.set_linear_solver(memory(), newton_system_->solver(), newton_system_->matrix()));
 }
 
 void SundialsIntegrator::start(const State& state) {
@@ -30,10 +71,7 @@ void SundialsIntegrator::start(const State& state) {
   if (started_) {
     const Counters now = counters();
     reinitialise(state.t);  // sets the library's counters to zero
-    before_.steps += now.steps;
-    before_.error_test_failures += now.error_test_failures;
-    before_.convergence_failures += now.convergence_failures;
-    before_.newton_iterations += now.newton_iterations;
+    before_.add(now);
   } else {
     initialise(state.t);
     started_ = true;
@@ -41,22 +79,19 @@ void SundialsIntegrator::start(const State& state) {
 }
 
 StepInfo SundialsIntegrator::step(double t_stop) {
-  if (statistics_.steps >= settings_.options.max_steps)
-    throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
-                               "or integrator.{}",
-                               name_, t_, statistics_.steps, adaptive() ? "rtol" : "step"),
-                   Reason::too_many_steps);
+  if (statistics_.steps >= options_.max_steps)
+    throw too_many_steps_error(name_, t_, statistics_.steps, adaptive() ? "integrator.rtol" : "integrator.step");
   callback_context_ = {};
   const int flag = advance(t_stop, t_);
   update_statistics();
   if (flag < 0) fail(flag);
-  StepInfo info = last_step();
-  info.t = t_;
+  StepInfo info{t_, 0, last_order()};
+  library_.last_step(memory(), &info.h);
   refuse_tiny_steps(info, t_stop);
   return info;
 }
 
-// In front of a time past which the model cannot be evaluated the library takes ever smaller steps.
+// Ends a run whose steps become ever smaller, as before a time past which the model cannot be evaluated.
 void SundialsIntegrator::refuse_tiny_steps(const StepInfo& info, double t_stop) const {
   if (info.t >= t_stop || info.h > 4 * std::numeric_limits<double>::epsilon() * std::abs(info.t)) return;
   throw RunError(position() + "the step has shrunk to the resolution of time" + cause() +
@@ -81,13 +116,16 @@ void SundialsIntegrator::interpolate(double t, State& out) const {
   out.v = velocities(dense.get());
 }
 
-std::size_t SundialsIntegrator::bytes() const { return workspace_bytes() + (reduced_ ? reduced_->bytes() : 0); }
+std::size_t SundialsIntegrator::bytes() const {
+  long reals = 0, integers = 0;
+  library_.workspace(memory(), &reals, &integers);
+  return static_cast<std::size_t>(reals) * sizeof(sunrealtype) + own_bytes() +
+         (newton_system_ ? newton_system_->bytes() : 0);
+}
 
 Decisions SundialsIntegrator::decisions() const {
-  auto all = settings_.decisions;
-  if (!settings_.implicit) return all;
-  const std::string detail = reduced_ ? " (" + reduced_->description() + ")" : "";
-  all.emplace_back("linear_solver", shown(settings_.options.linear_solver) + detail);
+  auto all = decisions_;
+  if (newton_system_) all.emplace_back("linear_solver", shown(options_.linear_solver) + newton_system_->description());
   return all;
 }
 
@@ -95,50 +133,38 @@ void SundialsIntegrator::require(int flag) const {
   if (flag < 0) throw RunError(name_ + " refused its set-up: " + callback_context_.message);
 }
 
-void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
-                                             std::function<void(N_Vector, N_Vector)> solve) {
-  matrix_ = make_placeholder_matrix(context_);
-  functions_.setup = [this, gamma = std::move(gamma)] {
-    bool factored = false;
-    const int thrown = guarded(callback_context_, [&] { factored = reduced_->factor(gamma()); });
-    return thrown ? thrown : factored ? 0 : 1;
-  };
-  functions_.iterative = reduced_->is_iterative();
-  functions_.solve = [this, solve = std::move(solve)](N_Vector x, N_Vector b, double tolerance) {
-    const ScaledNorm norm(settings_.options.rtol, settings_.scales);
-    reduced_->set_newton_tolerance(norm.root_mean_square_at(tolerance, reduced_->gamma(), 1));
-    return guarded(callback_context_, [&] { solve(x, b); });
-  };
-  solver_ = make_solver_adapter(functions_, context_);
+double SundialsIntegrator::current_step() const {
+  sunrealtype h = 0;
+  library_.current_step(memory(), &h);
+  return h;
 }
 
-void SundialsIntegrator::make_full_solver() {
-  matrix_ = full_->make_matrix(context_);
-  klu_ = make_klu(matrix_.get(), context_);
-  functions_.setup = [this] {
-    const Measure measure(statistics_.factorization);
-    return static_cast<int>(SUNLinSolSetup(klu_.get(), matrix_.get()));
-  };
-  functions_.solve = [this](N_Vector x, N_Vector b, double) {
-    const Measure measure(statistics_.solve);
-    return static_cast<int>(SUNLinSolSolve(klu_.get(), matrix_.get(), x, b, 0));
-  };
-  solver_ = make_solver_adapter(functions_, context_);
+SundialsIntegrator::Counters SundialsIntegrator::counters() const {
+  Counters c;
+  library_.steps(memory(), &c.steps);
+  library_.error_test_failures(memory(), &c.error_test_failures);
+  library_.convergence_failures(memory(), &c.convergence_failures);
+  c.convergence_failures += retries();
+  library_.newton_iterations(memory(), &c.newton_iterations);
+  return c;
 }
 
-void SundialsIntegrator::linearize_full(double t, N_Vector y) {
-  const Measure measure(statistics_.tangent);
-  model_.linearize(t, positions(y), velocities(y), settings_.options.tangent(), linearization_);
+void SundialsIntegrator::Counters::add(const Counters& other) {
+  steps += other.steps;
+  error_test_failures += other.error_test_failures;
+  convergence_failures += other.convergence_failures;
+  newton_iterations += other.newton_iterations;
 }
 
 void SundialsIntegrator::update_statistics() {
-  const Counters now = counters();
+  Counters all = before_;
+  all.add(counters());
   auto& s = statistics_;
-  s.steps = before_.steps + now.steps;
-  s.error_test_failures = before_.error_test_failures + now.error_test_failures;
-  s.convergence_failures = before_.convergence_failures + now.convergence_failures;
+  s.steps = all.steps;
+  s.error_test_failures = all.error_test_failures;
+  s.convergence_failures = all.convergence_failures;
   s.rejected_steps = s.error_test_failures + s.convergence_failures;
-  s.newton_iterations = before_.newton_iterations + now.newton_iterations;
+  s.newton_iterations = all.newton_iterations;
 }
 
 void SundialsIntegrator::fail(int flag) {
@@ -155,11 +181,10 @@ void SundialsIntegrator::fail(int flag) {
                          (adaptive() ? "h_max" : "step") + " or check the loads",
                      reason);
     case Reason::diverged:
-      throw RunError(position() +
-                         "the motion has outgrown its tolerance, rtol times the scales, which is below its "
-                         "round-off; " +
-                         (adaptive() ? "raise integrator.rtol or the scales" : "lower integrator.step"),
-                     reason);
+      throw RunError(
+          position() + "the motion has outgrown its tolerance, rtol times the scales, which is below its round-off; " +
+              (adaptive() ? "raise integrator.rtol or the scales" : "lower integrator.step"),
+          reason);
     case Reason::step_too_small: throw RunError(position() + "the time left is below the resolution of time", reason);
     default: throw RunError(position() + callback_context_.message + fmt::format(" (flag {})", flag), reason);
   }
@@ -167,11 +192,19 @@ void SundialsIntegrator::fail(int flag) {
 
 std::string SundialsIntegrator::iteration_failure() const {
   return "Newton's method does not converge" +
-         (adaptive() ? " at the smallest step" + cause() +
-                           "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements"
-                     : cause() +
-                           "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted "
-                           "elements");
+         (adaptive()
+              ? " at the smallest step" + cause() +
+                    "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements"
+              : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted elements");
+}
+
+int SundialsIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {
+  return guarded(callback_context_, [&] {
+    const Measure measure(statistics_.force);
+    model.force(t, positions(y), velocities(y), a);
+    require_finite(model, a);
+    model.solve_mass(a);
+  });
 }
 
 void SundialsIntegrator::initial_acceleration(const Model& model, double t, VectorRef a) {
@@ -180,10 +213,7 @@ void SundialsIntegrator::initial_acceleration(const Model& model, double t, Vect
     model.force(t, positions(y()), velocities(y()), a);
     require_finite(model, a);
   } catch (const RecoverableError& e) {
-    throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
-                               "state and the loads",
-                               name_, t, e.what()),
-                   Reason::force);
+    throw initial_force_error(name_, t, e.what());
   }
   model.solve_mass(a);
 }

@@ -1,18 +1,48 @@
-// What all integrators of SUNDIALS share: the state, the callbacks into the model, the linear solver
-// (reduced or full), counting, and the messages of failure. The calls of each library stay in its own integrators.
+// Base of the integrators of SUNDIALS, whose state is y = (q, v). It contains what CVODE, IDA and ARKODE share: state,
+// error weights, Newton's linear systems, counters and failure messages. One derived class per library makes the calls
+// that differ.
+//
+// Error test: the local error e of y is accepted if the root mean square of w_i e_i is at most 1. The inverse weight
+// 1/w_i is rtol times the position scale for positions and rtol times the velocity scale for velocities. Tolerances
+// relative to the positions themselves would depend on the frame of reference.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
-#include "integrators/reduced_solve.h"
-#include "integrators/sundials/callbacks.h"
-#include "integrators/sundials/full_jacobian.h"
-#include "integrators/sundials/solver_adapter.h"
-#include "integrators/sundials/sundials_options.h"
+#include "integrators/sundials/newton_system.h"
+#include "integrators/sundials/nonsmooth_newton.h"
 
 namespace orthodyn::sundials {
+
+// Functions with the same signature and meaning in CVODE, IDA and ARKODE.
+struct LibraryCalls {
+  int (*set_user_data)(void* memory, void* user);
+  int (*set_error_weights)(void* memory, int (*)(N_Vector y, N_Vector weights, void* user));
+  int (*set_initial_step)(void* memory, sunrealtype h);
+  int (*set_max_step)(void* memory, sunrealtype h);
+  int (*set_min_step)(void* memory, sunrealtype h);
+  int (*set_nonlinear_solver)(void* memory, SUNNonlinearSolver solver);
+  int (*set_linear_solver)(void* memory, SUNLinearSolver solver, SUNMatrix matrix);
+  int (*last_step)(void* memory, sunrealtype* h);
+  int (*current_step)(void* memory, sunrealtype* h);
+  int (*steps)(void* memory, long* count);
+  int (*error_test_failures)(void* memory, long* count);
+  int (*convergence_failures)(void* memory, long* count);
+  int (*newton_iterations)(void* memory, long* count);
+  int (*workspace)(void* memory, long* reals, long* integers);
+};
+
+// The LibraryCalls of CVODE, IDA or ARKODE, given the prefix of its functions: CVode, IDA or ARKStep.
+#define ORTHODYN_LIBRARY_CALLS(prefix)                                                                               \
+  {                                                                                                                  \
+    .set_user_data = prefix##SetUserData, .set_error_weights = prefix##WFtolerances,                                 \
+    .set_initial_step = prefix##SetInitStep, .set_max_step = prefix##SetMaxStep, .set_min_step = prefix##SetMinStep, \
+    .set_nonlinear_solver = prefix##SetNonlinearSolver, .set_linear_solver = prefix##SetLinearSolver,                \
+    .last_step = prefix##GetLastStep, .current_step = prefix##GetCurrentStep, .steps = prefix##GetNumSteps,          \
+    .error_test_failures = prefix##GetNumErrTestFails, .convergence_failures = prefix##GetNumStepSolveFails,         \
+    .newton_iterations = prefix##GetNumNonlinSolvIters, .workspace = prefix##GetWorkSpace                            \
+  }
 
 class SundialsIntegrator : public Integrator {
  public:
@@ -20,71 +50,82 @@ class SundialsIntegrator : public Integrator {
   StepInfo step(double t_stop) override;
   void interpolate(double t, State& out) const override;
   const Statistics& statistics() const override { return statistics_; }
-  std::size_t factor_bytes() const override {
-    return reduced_ ? reduced_->factor_bytes() : klu_factor_bytes(klu_.get());
-  }
+  std::size_t factor_bytes() const override { return newton_system_ ? newton_system_->factor_bytes() : 0; }
   std::size_t bytes() const override;
   Decisions decisions() const override;
 
  protected:
-  // What the library has counted since it was (re-)initialised.
-  struct Counters {
-    long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0;
-  };
-  // `name` is the integrator's, for messages.
-  SundialsIntegrator(std::string name, const Model& model, const Settings& settings);
+  // `name`: the integrator's type, for messages. `implicit`: true if Newton's method solves the equations of a step.
+  // Throws ConfigError if the linear solver does not accept the model's matrices.
+  SundialsIntegrator(std::string name, const LibraryCalls& library, const Model& model, const Options& options,
+                     const Scales& scales, bool implicit);
 
-  // The first start and further ones, from y(); the first may set up more.
+  // Check for integrators of y' = (v, M^-1 f). Throws ConfigError for klu_full with a consistent mass, whose inverse is
+  // dense.
+  void check_mass_for_full_jacobian() const;
+
+  virtual void* memory() const = 0;  // memory block of the library
+  // Start the library at time t (s) and state y(): initialise() at the first start, reinitialise() at later ones.
   virtual void initialise(double t) = 0;
   virtual void reinitialise(double t) = 0;
-  // One step of the library from y() to y(), at t_stop at the latest: sets t and returns the library's flag.
+  // Makes the library take one step, which ends at t_stop at the latest. Updates y() and t; returns the library's flag.
   virtual int advance(double t_stop, double& t) = 0;
-  virtual StepInfo last_step() const = 0;
-  virtual double current_step() const = 0;  // s, of the step that is being tried
-  // (q, v) at a time within the last step; returns the library's flag.
+  virtual int last_order() const = 0;
+  // Computes (q, v) at a time within the last step; returns the library's flag.
   virtual int dense_output(double t, N_Vector out) const = 0;
-  virtual Counters counters() const = 0;
-  virtual Reason classify(int flag) const = 0;  // of a negative flag
-  virtual std::size_t workspace_bytes() const = 0;
-  // What to say when the iteration of a step does not converge, and the remedy.
+  virtual Reason classify(int flag) const = 0;  // reason for a negative flag
+  // Number of steps that the derived class has restarted; the library does not count them as convergence failures.
+  virtual long retries() const { return 0; }
+  virtual std::size_t own_bytes() const { return 0; }  // besides library workspace and linear solver, bytes
+  // Message for a step whose iteration does not converge, with the remedy.
   virtual std::string iteration_failure() const;
-  std::string cause() const;  // why the model refused the last state, if it did
 
-  // Throws RunError with the library's words if the flag is negative.
+  // Called by initialise() of derived classes. The user data of callbacks is a SundialsIntegrator*.
+  void set_error_weights();
+  void set_step_limits();
+  void use_nonsmooth_newton();
+  // Passes the Newton system to the library after its creation.
+  void attach_linear_solver();
+  // Throws RunError with the library's message if the flag is negative.
   void require(int flag) const;
 
-  // a = M^-1 f at y(), m/s^2, where the integration begins. Throws RunError where it cannot be evaluated.
-  void initial_acceleration(const Model& model, double t, VectorRef a);
+  double current_step() const;  // length of the step being tried, s
+  std::string cause() const;    // " (why the model refused the last state)", or empty
 
-  // The linear solver: its calls go to the reduced solve, or to SUNDIALS' KLU.
-  void make_reduced_solver(std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)> solve);
-  void make_full_solver();
-  void linearize_full(double t, N_Vector y);
+  // Computes a = M^-1 f (m/s^2) at (t, y). For use in callbacks: returns 0, +1 (recoverable) or -1 (fatal), throws
+  // nothing.
+  int evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a);
+  // Computes a = M^-1 f (m/s^2) at the initial state y(). Throws RunError if the force cannot be evaluated.
+  void initial_acceleration(const Model& model, double t, VectorRef a);
 
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()); }
   N_Vector y() const { return y_.get(); }
 
   const Model& model_;
-  Settings settings_;
+  const Options options_;
+  const Scales scales_;
+  Decisions decisions_;  // values chosen for keys that the input left open, without the linear solver
   Statistics statistics_;
   CallbackContext callback_context_;
-  Context context_;  // before everything made in it
+  Context context_;  // declared before everything created in it
   OwnedVector y_;
-  Vector momentum_;
-  std::optional<ReducedSolve> reduced_;
-  std::optional<FullJacobian> full_;
-  Linearization linearization_;  // of the full path
-  SolverFunctions functions_;    // before the adapter that calls them
-  OwnedMatrix matrix_;
-  OwnedSolver klu_, solver_;  // SUNDIALS' KLU of the full path is called by the adapter
+  std::optional<NonsmoothNewton> nonsmooth_newton_;
+  std::optional<NewtonSystem> newton_system_;  // only if implicit
 
  private:
+  // Counts of the library since it was (re-)initialised.
+  struct Counters {
+    long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0;
+    void add(const Counters& other);
+  };
+  Counters counters() const;
   void update_statistics();
   void refuse_tiny_steps(const StepInfo& info, double t_stop) const;
-  std::string position() const;  // where it stopped, to begin a message
+  std::string position() const;  // "NAME stopped at t = ..., step ...: "
   [[noreturn]] void fail(int flag);
 
   std::string name_;
+  const LibraryCalls& library_;
   Counters before_;  // counted before the last restart
   double t_ = 0;
   bool started_ = false;

@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 template <int size>
 using Part = Eigen::Array<double, size, 1>;
 
-// Blocks of fixed length from the first entry on: what is added to what does not depend on where the numbers lie.
+// Blocks of fixed length, counted from the first entry, so that the order of summation does not depend on alignment.
 constexpr int kBlock = 32;
 
 Index length(N_Vector v) { return static_cast<Index>(NV_LENGTH_S(v)); }
@@ -28,7 +28,7 @@ auto part(N_Vector v, Index i) {
   return Eigen::Map<Part<size>>(NV_DATA_S(v) + i);
 }
 
-// body<size>(i) for all parts [i, i + size).
+// Calls body<size>(i) for all parts [i, i + size).
 template <class Body>
 void for_each_part(Index n, const Body& body) {
   Index i = 0;
@@ -36,7 +36,7 @@ void for_each_part(Index n, const Body& body) {
   for (; i < n; ++i) body.template operator()<1>(i);
 }
 
-// The sum of all entries of term<size>(i), an array.
+// The sum over all entries, where term<size>(i) returns an array of entries i to i + size - 1.
 template <class Term>
 double sum(Index n, const Term& term) {
   Part<kBlock> sums = Part<kBlock>::Zero();
@@ -47,7 +47,7 @@ double sum(Index n, const Term& term) {
   return total;
 }
 
-// z may be x or y. A difference of equal numbers is 0 for any weight.
+// z = a x + b y; z may be x or y. If a = -b, the result for equal entries of x and y is exactly 0.
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   if (a == -b)
     return for_each_part(length(z),

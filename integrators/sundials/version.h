@@ -1,4 +1,4 @@
-// What differs between SUNDIALS 6 and 7: the only place that asks for the version.
+// Differences between SUNDIALS 6 and 7. No other file checks the version.
 #pragma once
 
 #include <sundials/sundials_context.h>
@@ -27,12 +27,12 @@ inline int create_context(SUNContext* context) {
 inline void keep_message(const char* function, const char* message, void* text) noexcept {
   try {
     *static_cast<std::string*>(text) = std::string(function ? function : "") + ": " + (message ? message : "");
-  } catch (...) {  // out of memory: the flag alone has to do
+  } catch (...) {  // out of memory: the message is lost, the flag remains
   }
 }
 
-// Sends what a library reports to *text instead of to the terminal. `set_handler` is the library's
-// own setter (CVodeSetErrHandlerFn, IDASetErrHandlerFn), needed by version 6 alone.
+// Redirects a library's error messages from the terminal to *text. `set_handler` is the library's setter
+// (CVodeSetErrHandlerFn, IDASetErrHandlerFn), used by version 6 only.
 #if SUNDIALS_VERSION_MAJOR >= 7
 inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode code, void* text,
                        SUNContext) noexcept {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
 #include <utility>
 
+#include "lib/analysis/modes.h"
 #include "lib/core/errors.h"
 #include "lib/linear/negative_eigenpairs.h"
 #include "lib/linear/solver.h"
@@ -14,10 +13,10 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kStep = 1e-4;  // of the body's size, in the displacement of the difference
-constexpr double kLargestStrain = 0.1;
+constexpr double kStep = 1e-4;          // displacement step of the central difference, relative to the body's size
+constexpr double kLargestStrain = 0.1;  // strain at the load-factor limit
 
-using Values = std::vector<double>;  // on the model's pattern
+using Values = std::vector<double>;  // entries of a matrix on the model's pattern
 
 Values stiffness_at(const Model& model, double t, const Vector& q, TangentKind kind) {
   Linearization at;
@@ -27,20 +26,14 @@ Values stiffness_at(const Model& model, double t, const Vector& q, TangentKind k
   return values;
 }
 
-// a A + b B
+// Returns a A + b B.
 Values sum(double a, const Values& A, double b, const Values& B) {
   Values out(A.size());
   for (std::size_t k = 0; k < A.size(); ++k) out[k] = a * A[k] + b * B[k];
   return out;
 }
 
-struct Divided {
-  std::unique_ptr<Model> structure, loads;
-};
-
-Divided divided(const FemModel& model) { return {without_loads(model), model.only(model.load_parts().value())}; }
-
-// The largest strain of a small displacement, by the norm of its components.
+// The largest small-strain norm (Frobenius) of a displacement.
 double largest_strain(const FemModel& model, double t, const Vector& u) {
   const NodalExpansion nodal(model.parts(), t, u, Vector::Zero(u.size()));
   double largest = 0;
@@ -51,21 +44,14 @@ double largest_strain(const FemModel& model, double t, const Vector& u) {
   return largest;
 }
 
-double size_of(const FemModel& model) {
-  const auto points = model.geometry().points;
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  return (high - low).maxCoeff();
-}
-
-// What the stresses at q add to the stiffness.
+// Stress stiffness of the stresses at q: exact minus Gauss-Newton tangent.
 Values stress_stiffness_at(const Model& structure, double t, const Vector& q) {
   return sum(1, stiffness_at(structure, t, q, TangentKind::exact), -1,
              stiffness_at(structure, t, q, TangentKind::gauss_newton));
 }
 
-// For the stresses of the response u to all loads. The central difference drops the stretching that a straight
-// displacement brings, which is of second order.
+// Stress stiffness of the linear response u about `unloaded`. The central difference cancels the second-order strains
+// of a displacement along a straight line.
 Values stress_stiffness(const Model& structure, double t, const Vector& unloaded, const Vector& u) {
   return sum(0.5, stress_stiffness_at(structure, t, unloaded + u), -0.5,
              stress_stiffness_at(structure, t, unloaded - u));
@@ -77,7 +63,7 @@ BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, doub
   const Pattern& pattern = model.pattern();
   if (!pattern.symmetric)
     throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
-  const auto [structure, loads] = divided(model);
+  const auto structure = without_loads(model), loads = model.only(model.load_parts().value());
   const Values K = stiffness_at(*structure, t, unloaded, TangentKind::exact);
   const auto solver = make_linear_solver("cholmod", pattern);
   if (solver->factor(K.data()) != FactorStatus::ok)
@@ -86,19 +72,19 @@ BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, doub
   loads->force(t, unloaded, Vector::Zero(unloaded.size()), f);
   if (f.isZero(0)) throw RunError("nothing loads the body: it has no critical load factor");
   solver->solve(f, u);
-  // Under so many times the loads: whatever these are, the difference has its digits.
-  const double times = kStep * size_of(model) / u.lpNorm<Eigen::Infinity>();
+  // Scales u by `times`, so that the central difference is accurate for loads of any size.
+  const double size = bounding_box(model.parts().mesh).size().maxCoeff();
+  const double times = kStep * size / u.lpNorm<Eigen::Infinity>();
   u *= times;
   const Values rate = sum(1, stress_stiffness(*structure, t, unloaded, u), times,
                           stiffness_at(*loads, t, unloaded, TangentKind::exact));
   const double smallest = largest_strain(model, t, u) / kLargestStrain;
-  const NegativeEigenPairs pairs = negative_eigenpairs(pattern, rate, K, smallest, count);  // nu = -times/lambda
+  // The eigenvalues are -times / lambda.
+  const NegativeEigenPairs pairs = negative_eigenpairs(pattern, rate, K, smallest, count);
   BucklingModes out{{}, times / smallest};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     BucklingMode mode{-times / pairs.values[k], pairs.shapes.col(k)};
-    Eigen::Index top = 0;
-    mode.shape.cwiseAbs().maxCoeff(&top);
-    if (mode.shape[top] < 0) mode.shape = -mode.shape;
+    fix_sign(mode.shape);
     Vector stressed(u.size()), missing(u.size()), elastic(u.size());
     pattern.multiply(rate.data(), mode.shape, stressed);
     solver->solve(stressed, missing);

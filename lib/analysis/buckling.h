@@ -1,13 +1,12 @@
-// Linear buckling: the load factors at which the equilibrium of a body that carries its loads becomes unstable, as its
-// state without loads foretells them:
+// Linear buckling analysis: computes, from the unloaded state alone, the load factors lambda at which the equilibrium
+// becomes unstable,
 //
-//     K phi = -lambda K' phi,
+//     K phi = -lambda K_g phi.
 //
-// with the stiffness K of the structure (the body, its springs and the ground, under their own forces alone), and K'
-// the stiffness that the loads add: the stress stiffness of the stresses that they cause (static response u = K^-1 f),
-// and their own where they follow the body (pressure; of an unsymmetric one the symmetric part). That the shape changes
-// before it buckles is left out, as in the classic analysis (Cook et al., Concepts and Applications of Finite Element
-// Analysis, 2002, 18.5): right where the body moves little until then, else follow the path
+// K is the stiffness of the unloaded structure (body, springs, ground contact). K_g is the stiffness that the loads f
+// add: the stress stiffness of the linear response u = K^-1 f, and the symmetric part of the load stiffness of follower
+// pressure. The prebuckling deformation is neglected, as in the classic analysis (Cook et al., Concepts and
+// Applications of Finite Element Analysis, 2002, 18.5). If this deformation is not small, follow the load path instead
 // (lib/statics/load_stepper.h).
 #pragma once
 
@@ -18,20 +17,19 @@
 namespace orthodyn {
 
 struct BucklingMode {
-  double load_factor = 0;  // of the loads at the time asked for
-  Vector shape;            // phi . K phi = 1
-  double residual = 0;     // |phi + lambda K^-1 K' phi| in the norm of K
+  double load_factor = 0;  // critical factor on the loads at the time of the analysis
+  Vector shape;            // phi at the free coordinates, phi . K phi = 1
+  double residual = 0;     // |phi + lambda K^-1 K_g phi| in the norm of K
 };
 
 struct BucklingModes {
-  std::vector<BucklingMode> modes;  // of the lowest positive load factors, ascending
-  // The load factor at which linear statics reach a strain of a tenth: higher ones are no buckling loads, and left out.
-  double limit = 0;
+  std::vector<BucklingMode> modes;  // those with the lowest positive load factors, ascending
+  double limit = 0;  // load factor at which the linear response reaches 10 % strain; modes above it are left out
 };
 
-// At most `count`, for the loads at time t, s; for the loads reversed no factor is told. unloaded: the free
-// displacements with which the body rests without loads, m. Throws ConfigError for an unsymmetric tangent, RunError if
-// the model is not held or they cannot be found.
+// Computes at most `count` modes for the loads at time t (s). Negative load factors are not computed. `unloaded`:
+// displacements (m) of the free coordinates in equilibrium without loads. Throws ConfigError for an unsymmetric
+// tangent; RunError if the body is not held or unstable, if it has no loads, or if the iteration fails.
 BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, double t, int count);
 
 }  // namespace orthodyn

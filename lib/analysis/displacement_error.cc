@@ -9,7 +9,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kAccuracy = 1e-4;  // of an iterative solver, in energy
+constexpr double kSolveTolerance = 1e-4;  // relative, in the energy norm; for iterative solvers
 
 std::unique_ptr<LinearSolver> factorised_tangent(const FemModel& model, const State& s) {
   Linearization at;
@@ -18,17 +18,13 @@ std::unique_ptr<LinearSolver> factorised_tangent(const FemModel& model, const St
   model.combine({0, 0, 1}, at, values.data());
   auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"}, model.pattern());
   if (solver->is_iterative()) {
-    solver->set_tolerance({kAccuracy, 0});
+    solver->set_tolerance({kSolveTolerance, 0});
     solver->set_rigid_motions(model.rigid_motions(s.q));
   }
   if (solver->factor(values.data()) != FactorStatus::ok)
     throw RunError("the tangent at the equilibrium cannot be factorised: it is singular or unstable");
   return solver;
 }
-
-}  // namespace
-
-namespace {
 
 std::vector<Vec3> errors_by_duals(const FemModel& model, const State& equilibrium, const std::vector<int>& nodes) {
   const FemModel::Parts& parts = model.parts();

@@ -11,7 +11,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kNegligible = 1e-6;  // an error of nobody's interest, and above round-off
+constexpr double kNegligible = 1e-6;  // relative error that counts as zero; above round-off
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 double norm(const Vector& x, const Vector& Mx) { return std::sqrt(std::max(x.dot(Mx), 0.0)); }
@@ -23,10 +23,11 @@ std::unique_ptr<ElasticTerm> with_exact_force(const ElasticTerm& term, const Ele
   return elements.type.elastic_term(elements, std::move(region), pattern);
 }
 
-// What is odd in `swing` of shift(mean + swing). Where that is not found it is taken as cubic, from a smaller swing.
+// The part of shift(mean + swing) that is odd in `swing`. If no shift is found for the full swing, smaller swings are
+// tried, and the odd part is extrapolated as a cubic.
 std::optional<Vector> odd_part(const std::function<std::optional<Vector>(const Vector&)>& shift, const Vector& mean,
                                const Vector& swing) {
-  constexpr double kLeast = 0.1;  // of the swing
+  constexpr double kLeast = 0.1;  // smallest tried fraction of the swing
   for (double share = 1; share > kLeast; share /= 2) {
     const std::optional<Vector> to = shift(mean + share * swing);
     const std::optional<Vector> fro = to ? shift(mean - share * swing) : std::nullopt;
@@ -116,9 +117,9 @@ LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms
 }
 
 std::optional<Vector> Linearity::shift(double t, const Vector& q, const Terms& terms) {
-  constexpr double kAccuracy = 0.02;  // of the error itself
-  constexpr double kSlowest = 0.7;    // contraction of the energy of steps
-  constexpr int kMostTangents = 12;   // of the exact force, one a step, where the linear stiffness does not serve
+  constexpr double kAccuracy = 0.02;  // relative accuracy of the shift
+  constexpr double kSlowest = 0.7;    // largest accepted ratio of successive step energies
+  constexpr int kMostTangents = 12;   // limit on exact tangents, which are used if the linear one converges slowly
   const Vector still = Vector::Zero(q.size());
   Vector at_q(q.size()), there(q.size()), step(q.size()), Mx(q.size());
   model_.multiply_mass(q, Mx);
@@ -156,7 +157,8 @@ VibrationDrift Linearity::drift(double t, const Vector& mean, const Vector& swin
   model_.multiply_mass(swing, Ms);
   const double square = swing.dot(Ms);
   if (!(square > 0) || !(omega > 0)) return {};
-  // A mean of large rotations is no state of the body: where these are possible, all at the end counts as odd.
+  // With large rotations the body does not pass through the mean shape. The whole shift at the end of the swing then
+  // counts as odd.
   const bool is_linear = model_.traits().linear;
   const Vector base = is_linear ? mean : mean + swing;
   const auto shift_from = [&](const Vector& q) { return shift(t, q, terms_); };

@@ -1,8 +1,8 @@
-// How far linear kinematics are off at a displacement: the body with the exact force is brought to the equilibrium
-// under what the linear one carries there, by Newton's method with the factorised tangent of the model. It knows
-// rotations, strains and stretched midlines alike, and costs a few forces and solutions. In statics a tangent with the
-// exact force and its factor are added: a straight column that carries more than Euler's load is at an equilibrium, but
-// at none that lasts.
+// Error of linear kinematics at a displacement q. Newton's method, with the factorised tangent of the model, moves the
+// body from q to the position at which the exact (corotational) force equals the linear force at q. The distance is the
+// error. It covers rotations, finite strains and stretched midlines, and costs a few force evaluations and solves. In
+// statics the tangent of the exact force is also factorised, because a straight column above Euler's load is in
+// equilibrium, but unstable.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@
 
 namespace orthodyn {
 
-// Of a displacement, in the mass norm. Infinite where the iteration finds no equilibrium, as where a slender body has
-// moved by a good part of its thickness.
+// Error of a displacement in the mass norm. Both errors are infinite if the iteration finds no equilibrium, for example
+// if a slender body has moved by a large part of its thickness.
 struct LinearityError {
-  double displacement = 0;  // by which the displacement would differ
-  double stiffness = 0;     // the part of that along the displacement: how much softer or stiffer it is
-  bool unstable = false;    // in statics: an equilibrium of the exact force that does not last; both are infinite
+  double displacement = 0;  // |error| / |displacement|
+  double stiffness = 0;     // likewise for the error along the displacement: relative error of the stiffness
+  bool unstable = false;    // statics only: the exact tangent is not positive definite; both errors are then infinite
 };
 
-// Of a vibration: how fast the exact force makes it part from the linear one, in the mass norm, sqrt(kg) m/s, and the
-// decay of free vibrations of that shape by the model's damping, 1/s.
+// `rate`: how fast a vibration with the exact force departs from the linear vibration, in the mass norm (sqrt(kg) m/s).
+// `decay`: rate (1/s) at which the model's damping reduces free vibrations of this shape.
 struct VibrationDrift {
   double rate = 0, decay = 0;
 
-  // What has accumulated after `duration` (s), sqrt(kg) m: the solution of e' + decay e = rate with e(0) = 0.
+  // Error after `duration` (s), in sqrt(kg) m: the solution e of de/dt + decay e = rate with e(0) = 0.
   double after(double duration) const;
 };
 
@@ -36,39 +36,40 @@ class Linearity {
  public:
   using Terms = std::vector<std::size_t>;  // indices of FemModel::Parts::elastic
 
-  // Of these terms of a model, which must outlive it; they have linear kinematics. `span`, s: of the motion, in which a
-  // body that nothing holds can go so far; infinite in statics. Throws RunError if the tangent at rest cannot be
-  // factorised.
+  // `terms`: terms with linear kinematics whose error is computed. The model must outlive this object. `span`: duration
+  // of the motion (s), which limits how far an unsupported body drifts; infinite in statics. Throws RunError if the
+  // tangent at rest cannot be factorised.
   Linearity(const FemModel& model, Terms terms, double span);
 
-  // Of the displacement q at time t, by all terms or by some of them; 0 at rest.
+  // Error of the displacement q (m) at time t (s), caused by all terms or by the given ones; 0 for q = 0.
   LinearityError error(double t, const Vector& q) { return error(t, q, terms_); }
   LinearityError error(double t, const Vector& q, const Terms& terms);
 
-  // Of a vibration of frequency omega, rad/s, about `mean` that swings by `swing` to both sides; see PhaseError for the
-  // formula. The rate is infinite where no equilibrium is found.
+  // Drift of a vibration between mean - swing and mean + swing (m) with angular frequency omega (rad/s). The class
+  // PhaseError explains the formula. The rate is infinite if no equilibrium is found.
   VibrationDrift drift(double t, const Vector& mean, const Vector& swing, double omega);
 
  private:
   bool factor(double t, const Vector& q, TangentKind kind);
-  bool factor_for(double t, const Vector& q);  // as error() needs it
-  // The tangent of the body with the exact force; false where it is not positive definite: at an equilibrium the body
-  // is unstable there.
+  bool factor_for(double t, const Vector& q);  // factorises the tangent that shift() starts with
+  // Factorises the tangent at q with the exact force of `terms`. Returns false if it is not positive definite; an
+  // equilibrium at q is then unstable.
   bool factor_exact(double t, const Vector& q, const Terms& terms);
-  LinearityError distance(double t, const Vector& q, const Terms& terms);  // to the equilibrium with the exact force
-  // The displacement to it from q; none where it is not found.
+  // Computes the error from the distance between q and the equilibrium with the exact force.
+  LinearityError distance(double t, const Vector& q, const Terms& terms);
+  // Displacement (m) from q to the equilibrium with the exact force; nullopt if no equilibrium is found.
   std::optional<Vector> shift(double t, const Vector& q, const Terms& terms);
-  // What the exact force adds to that of the model, on the free coordinates.
+  // Adds the exact minus the linear force (N) of the terms to f, on the free coordinates.
   void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;
 
   const FemModel& model_;
   Terms terms_;
-  std::vector<std::unique_ptr<ElasticTerm>> exact_;  // of each of the model's elastic terms; null where not asked for
-  double mass_;                                      // weight of the mass beside the stiffness, 1/s^2
+  std::vector<std::unique_ptr<ElasticTerm>> exact_;  // parallel to Parts::elastic; null for other terms
+  double mass_;                                      // weight of M in the factorised matrix K + mass_ M, 1/s^2
   Linearization tangent_;
   std::vector<double> values_;
   std::unique_ptr<LinearSolver> solver_;
-  bool holds_rest_ = false;  // the solver the factor of the tangent at rest
+  bool holds_rest_ = false;  // whether the solver holds the factor of the tangent at rest
 };
 
 }  // namespace orthodyn

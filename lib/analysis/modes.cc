@@ -11,25 +11,24 @@ namespace orthodyn {
 
 namespace {
 
-bool tells_momentum(const Model& model) {
+bool has_momentum_output(const Model& model) {
   const auto outputs = model.outputs();
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& info) { return info.name == "momentum.linear"; });
 }
 
-// Its largest entry is positive: the same sign whoever computes it.
-void fix_sign(Vector& shape) {
-  Eigen::Index k = 0;
-  shape.cwiseAbs().maxCoeff(&k);
-  if (shape[k] < 0) shape = -shape;
-}
-
-// The linear momentum of the body if it moved with a velocity of the mode's shape.
+// Linear momentum for velocities equal to the mode's shape.
 Vec3 participation(const Model& model, const State& about, const Vector& shape) {
   const auto momentum = model.evaluate("momentum.linear", {about.t, about.q, shape});
   return Eigen::Map<const Vec3>(momentum.data());
 }
 
 }  // namespace
+
+void fix_sign(Vector& shape) {
+  Eigen::Index k = 0;
+  shape.cwiseAbs().maxCoeff(&k);
+  if (shape[k] < 0) shape = -shape;
+}
 
 double Mode::angular_frequency() const { return std::copysign(std::sqrt(std::abs(lambda)), lambda); }
 double Mode::frequency() const { return angular_frequency() / (2 * std::numbers::pi); }
@@ -48,7 +47,7 @@ Modes natural_modes(const Model& model, const State& about, int count) {
   acting.combine({1, 0, 0}, at, M.data());
   EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count, [&] { return model.rigid_motions(about.q); });
 
-  const bool has_momentum = tells_momentum(model);
+  const bool has_momentum = has_momentum_output(model);
   Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi), pairs.solver};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     Mode mode{pairs.values[k], pairs.shapes.col(k)};

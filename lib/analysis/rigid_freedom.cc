@@ -10,17 +10,16 @@
 #include "lib/analysis/singular_vectors.h"
 #include "lib/config/values.h"
 #include "lib/core/spelling.h"
-#include "lib/fem/whole_fields.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kHeld = 1e-9;       // of the motion that the clamps hold best
-constexpr double kRoundOff = 1e-14;  // of the stiffness that each coordinate has of its own
+constexpr double kHeld = 1e-9;       // smaller singular values, relative to the largest, mean that no clamp resists
+constexpr double kRoundOff = 1e-14;  // of r^T K r, relative to its value with the diagonal of K
 
-// For each node the number of its connected part; -1 for nodes of no element.
+// For each node the index of its connected component; -1 for nodes without an element.
 std::vector<int> parts_of(const TetMesh& mesh) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -52,7 +51,7 @@ Eigen::MatrixXd columns_where(const Eigen::MatrixXd& all, const Flags& wanted) {
   return out;
 }
 
-// Of each node of the whole mesh its three coordinates: 1 where clamped, else 0. Of nodes of no element all are 1.
+// Per coordinate of the whole mesh (3 * node + component): 1 if clamped or if the node has no element, else 0.
 // Collective.
 std::vector<double> clamped_coordinates(const FemModel& model) {
   const DofMap& dofs = *model.parts().dofs;
@@ -60,13 +59,13 @@ std::vector<double> clamped_coordinates(const FemModel& model) {
   for (int i = 0; i < dofs.num_nodes(); ++i)
     for (const int dof : dofs.node(i)) here.push_back(dof < 0 ? 1 : 0);
   const Subdomain* subdomain = model.parts().subdomain.get();
-  return subdomain ? on_all_nodes(*subdomain, here, 3, model.parts().mesh.nodes.size()) : here;
+  return subdomain ? subdomain->whole_field(here, 3) : here;
 }
 
-// One part's six rigid motions, all of size one.
+// The six rigid motions of one connected component, scaled to similar size.
 class RigidMotions {
  public:
-  // `clamped`, which must outlive it: as clamped_coordinates() has them.
+  // `clamped`: result of clamped_coordinates(); must outlive this object.
   RigidMotions(const FemModel& model, const std::vector<double>& clamped, const std::vector<int>& part_of, int part)
       : model_(model), clamped_(clamped) {
     for (std::size_t i = 0; i < part_of.size(); ++i)
@@ -78,7 +77,7 @@ class RigidMotions {
 
   const Vec3& center() const { return center_; }
 
-  // The combinations of the six that vanish at all clamped coordinates, as columns.
+  // Basis of the rigid motions that vanish at all clamped coordinates: combinations of the six, one per column.
   Eigen::MatrixXd not_clamped() const {
     const Eigen::MatrixXd held = at_clamps();
     if (held.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
@@ -86,7 +85,7 @@ class RigidMotions {
     return columns_where(combinations.V, combinations.values.array() <= kHeld * combinations.values.maxCoeff());
   }
 
-  // At the free coordinates of this rank's nodes, copies included.
+  // Displacements of the given combinations at the free coordinates of this rank's nodes, copies included.
   Eigen::MatrixXd on_dofs(const Eigen::MatrixXd& combinations) const {
     const auto& [dofs, subdomain] = std::tie(model_.parts().dofs, model_.parts().subdomain);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(dofs->num_dofs_here(), combinations.cols());
@@ -101,7 +100,7 @@ class RigidMotions {
   }
 
  private:
-  // A row per clamped coordinate.
+  // Displacements of the six motions, one row per clamped coordinate.
   Eigen::MatrixXd at_clamps() const {
     std::vector<Eigen::Matrix<double, 1, 6>> rows;
     for (const int i : nodes_)
@@ -129,7 +128,7 @@ class RigidMotions {
   double radius_ = 0;
 };
 
-// Those combinations of `motions` that K does not resist. K is the sum of what ranks have of it.
+// Those of the given combinations that have no stiffness. `motions`: their displacements, `stiffness`: K, on this rank.
 Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& motions,
                                   const FemModel& model, const std::vector<double>& stiffness) {
   const Pattern& pattern = model.pattern();
@@ -140,12 +139,12 @@ Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eig
     resisted.col(k) = force;
   }
   const Vector own = SparseMatrix(pattern.matrix(stiffness.data())).diagonal().cwiseAbs();
-  Eigen::MatrixXd sums(motions.cols() + 1, motions.cols());  // the energies, and those of each coordinate on its own
+  Eigen::MatrixXd sums(motions.cols() + 1, motions.cols());  // r_i^T K r_j; last row: sum_k |K_kk| r_j[k]^2
   sums << motions.transpose().lazyProduct(resisted), (motions.array().square().colwise() * own.array()).colwise().sum();
   if (model.ranks()) model.ranks()->sum({sums.data(), static_cast<std::size_t>(sums.size())});
   const double round_off = kRoundOff * sums.bottomRows(1).maxCoeff();
   const Eigen::MatrixXd energy = sums.topRows(motions.cols());
-  const Eigen::MatrixXd axes = right_singular_vectors((energy + energy.transpose()) / 2).V;  // its eigenvectors
+  const Eigen::MatrixXd axes = right_singular_vectors((energy + energy.transpose()) / 2).V;  // eigenvectors
   const Flags free = axes.cwiseProduct(energy.lazyProduct(axes)).colwise().sum().transpose().array() <= round_off;
   return combinations.lazyProduct(columns_where(axes, free));
 }
@@ -166,7 +165,7 @@ std::string sentence(const Eigen::MatrixXd& free) {
   return text;
 }
 
-// Of each part that hangs together: its centre, and as columns the combinations of its six rigid motions that are free.
+// Centre (m) of a connected component, and its free rigid motions: one column of six coefficients each.
 struct FreePart {
   Vec3 center;
   Eigen::MatrixXd motions;

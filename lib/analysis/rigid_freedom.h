@@ -1,8 +1,9 @@
-// Which rigid motions of a body, or of a part of it that hangs together, nothing holds: neither clamps nor terms
-// that resist them. A body that has some is in no definite place at rest.
+// Rigid motions of a body, or of a connected component of it, that neither clamps nor terms resist. A body with free
+// rigid motions has no unique rest position.
 //
-// The rigid motions that the clamps leave are the null space of the 6 motions at the clamped coordinates; of these
-// the ones with a stiffness r' K r of nothing but round-off are free. Functions are collective.
+// The clamps leave free those combinations of the six rigid motions that vanish at all clamped coordinates. Such a
+// motion r is free if r^T K r = 0 to round-off, with the stiffness K in the rest shape at time t (s). All functions are
+// collective.
 #pragma once
 
 #include <string>
@@ -11,10 +12,11 @@
 
 namespace orthodyn {
 
-// "can be translated along x and rotated about x", of the first part found free; empty if all are held.
+// Describes the first component that is free, such as "the body can be translated along x and rotated about x"; empty
+// if all components are held.
 std::string describe_rigid_freedom(const FemModel& model, double t);
 
-// How many there are, of all parts.
+// Number of free rigid motions of all components.
 int count_rigid_freedom(const FemModel& model, double t);
 
 }  // namespace orthodyn

@@ -14,7 +14,7 @@ double initial_energy(const FemModel& model, const State& state) {
   return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
 }
 
-// How far and how fast moved nodes go; zero if there are none.
+// Largest displacement and speed of moved supports; zero without any.
 struct Reach {
   double distance = 0, speed = 0;  // m, m/s
 };
@@ -39,8 +39,8 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   return {space.largest(reach.distance), space.largest(reach.speed)};
 }
 
-// m; 0 where it is not known. Displacements are twice those of the loads' static response, and three times the root
-// mean square of the vibrations that initial velocities or blows start.
+// Size of the motion (m); 0 if unknown. Loads cause up to twice their static response (less if they are short), and
+// initial velocities vibrations of three times their rms amplitude; the initial displacement is added.
 double size_of_motion(const VectorSpace& space, const State& initial, const StaticResponse& statics,
                       const Reach& reach) {
   const bool held_by_stiffness = statics.exists();
@@ -48,11 +48,11 @@ double size_of_motion(const VectorSpace& space, const State& initial, const Stat
   const bool is_loaded = !space.is_zero(statics.load);
   if (!held_by_stiffness && (moves || is_loaded || !is_moved)) return 0;
   const double deflection = is_loaded ? space.largest_entry(statics.displacement) : 0;
-  return 2 * std::max(share_reached(space, statics) * deflection, reach.distance) + 3 * statics.vibration +
-         space.largest_entry(initial.q);
+  return 2 * std::max(load_duration_factor(space, statics) * deflection, reach.distance) +
+         3 * statics.velocity_amplitude + space.largest_entry(initial.q);
 }
 
-constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are round-off
+constexpr double kLeastShare = 1e-6;  // smallest position scale relative to the extent, well above round-off
 
 double contact_stiffness(const FemModel& model) {
   double largest = 0;
@@ -67,10 +67,10 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const double mass = model.parts().mass->total();
   const VectorSpace space = model.space();
   const bool at_rest = space.is_zero(initial.q) && space.is_zero(initial.v);
-  const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
+  const double energy = at_rest ? 0 : initial_energy(model, initial);  // avoids round-off at rest
   if (!std::isfinite(energy))
     throw ConfigError("initial", "the state has no finite energy; check velocities and displacements");
-  const double reached = statics.exists() ? share_reached(space, statics) : 1;
+  const double reached = statics.exists() ? load_duration_factor(space, statics) : 1;
   const double work = statics.exists()              ? reached * reached * statics.work
                       : space.is_zero(statics.load) ? 0
                                                     : extent * space.sum_of_sizes(statics.load);

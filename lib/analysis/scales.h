@@ -1,15 +1,17 @@
-// How large motion and velocity will be, roughly: what error tolerances are relative to.
+// Estimates the size of positions and velocities and the frequency of the motion. Error tolerances are relative to
+// these scales.
 //
-// Position: a tenth of the body's largest extent L; less if it is known to move less: twice the linear static
-// deflection u under all loads at their peaks, or twice as far as moved supports go, and of a body that is held three
-// times the amplitude of the vibrations that initial velocities start; of short loads no more than three times that of
-// the vibrations that their impulses start. Where it may touch something whose stiffness at
-// a node is k, at most sqrt(2 (E0 + W) / k), but not below 1e-6 L: errors of position are errors of the energy of
-// contact. Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W the
-// work of the peak loads through that deflection, of short loads with the square of the share of it that they reach,
-// for an unclamped body through L, and V the largest speed of moved supports.
-// Frequency: 2/3 of velocity over position where that of the motion itself is known: one is three times a root mean
-// square, the other twice a size.
+// Notation: L is the body's largest extent, m its mass, V the largest speed of moved supports, E0 the initial elastic
+// and kinetic energy, u the largest static deflection under the peak loads, c = load_duration_factor(). W is the work
+// of the peak loads through the static displacement times c^2, or through the distance L if the body is not held.
+//
+//   Position: L / 10, or the size of the motion if that is known to be smaller. The size is the sum of twice the larger
+//   of c u and the largest support displacement, three times the amplitude of vibrations that initial velocities start,
+//   and the initial displacement. Contact of nodal stiffness k limits the position to sqrt(2 (E0 + W) / k), but not
+//   below 1e-6 L, because position errors become errors of the contact energy.
+//   Velocity: 3 sqrt(2 (E0 + W) / m + V^2), or L / duration if that is zero.
+//   Frequency: 2/3 velocity / size if the size of the motion is below L / 10, otherwise unknown (0). The factor is 2/3
+//   because the velocity is three times an rms value and the size twice an amplitude.
 #pragma once
 
 #include "lib/analysis/static_response.h"
@@ -17,8 +19,8 @@
 
 namespace orthodyn {
 
-// Of a body that moves from its initial state to the time `end` (s). `statics` is static_response() of this very model
-// and initial state. Throws ConfigError if the initial state has no finite energy.
+// Estimates the scales of a motion from the initial state to `end` (s). `statics`: static_response() of this model and
+// initial state. Throws ConfigError if the initial state has no finite energy.
 Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics);
 
 }  // namespace orthodyn

@@ -6,8 +6,8 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kOrthogonal = 1e-13;  // the cosine of two columns; the round-off of long ones is not far below
-constexpr int kMostSweeps = 60;        // six or so are usual
+constexpr double kOrthogonal = 1e-13;  // largest cosine of orthogonal columns; just above round-off
+constexpr int kMostSweeps = 60;        // about six are needed
 
 void rotate(Eigen::MatrixXd& A, Eigen::Index i, Eigen::Index j, double cosine, double sine) {
   const Vector a = A.col(i);
@@ -15,7 +15,7 @@ void rotate(Eigen::MatrixXd& A, Eigen::Index i, Eigen::Index j, double cosine, d
   A.col(j) = sine * a + cosine * A.col(j);
 }
 
-// Makes columns i and j orthogonal; false if they are.
+// Makes columns i and j orthogonal; false if they already are.
 bool orthogonalize(Eigen::MatrixXd& A, Eigen::MatrixXd& V, Eigen::Index i, Eigen::Index j) {
   const double a = A.col(i).squaredNorm(), b = A.col(j).squaredNorm(), c = A.col(i).dot(A.col(j));
   if (std::abs(c) <= kOrthogonal * std::sqrt(a) * std::sqrt(b)) return false;

@@ -1,6 +1,7 @@
-// The singular value decomposition of a matrix of few columns, A = U S V', without U: one-sided Jacobi rotations of
-// pairs of columns until those of A V are orthogonal (Hestenes 1958). Small singular values have their digits, too
-// (Demmel & Veselic 1992); those of A'A would be squared, below round-off.
+// Singular values and right singular vectors of a matrix with few columns, A = U S V^T. One-sided Jacobi rotations are
+// applied to pairs of columns until the columns of A V are orthogonal (Hestenes 1958). Small singular values are
+// accurate to round-off (Demmel & Veselic 1992); computed from the eigenvalues of A^T A they would lose half of the
+// digits.
 #pragma once
 
 #include "lib/core/types.h"
@@ -8,8 +9,8 @@
 namespace orthodyn {
 
 struct SingularVectors {
-  Vector values;      // in no order
-  Eigen::MatrixXd V;  // a column for each
+  Vector values;      // singular values, not sorted
+  Eigen::MatrixXd V;  // right singular vectors, one column per value
 };
 
 SingularVectors right_singular_vectors(Eigen::MatrixXd A);

@@ -12,9 +12,9 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kLargestForVelocities = 30'000;  // unknowns
+constexpr int kLargestForVelocities = 30'000;  // largest number of unknowns if only initial velocities need the factor
 
-// Of `count` terms of load from the given one.
+// Sum of the peak forces (N) of `count` terms of Parts::loads, starting with term `first`.
 Vector peak_load(const FemModel& model, const State& initial, double end, std::size_t first, std::size_t count) {
   const Vector still = Vector::Zero(model.num_dofs());
   const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
@@ -26,7 +26,7 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   return free;
 }
 
-// N s, of all loads in the direction of their peaks.
+// Sum of the impulses of all loads in the directions of their peaks, N s.
 Vector impulse(const FemModel& model, const State& initial, double end) {
   Vector sum = Vector::Zero(model.num_dofs());
   for (std::size_t k = 0; k < model.parts().loads.size(); ++k)
@@ -34,9 +34,10 @@ Vector impulse(const FemModel& model, const State& initial, double end) {
   return sum;
 }
 
-constexpr double kAccuracy = 1e-5;  // of an iterative solver, in energy
+constexpr double kAccuracy = 1e-5;  // relative, in the energy norm; for iterative solvers
 
-// K at rest, factored; null where it is singular or nearly so, or does not fit: who needs no factor is to run.
+// Factorises K at rest and stores its entries in `values`. Returns null if K is singular or nearly so, or if the factor
+// does not fit into memory, because runs that need no factor can go on.
 std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) try {
   const Vector zero = Vector::Zero(model.num_dofs());
   Linearization at;
@@ -54,7 +55,7 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   throw;
 }
 
-// None where round-off decides.
+// Solves K x = b. Returns nullopt if round-off dominates x or an iterative solver does not converge.
 std::optional<Vector> solution(LinearSolver& solver, const FemModel& model, const std::vector<double>& values,
                                const Vector& b) try {
   const VectorSpace space = model.space();
@@ -62,10 +63,10 @@ std::optional<Vector> solution(LinearSolver& solver, const FemModel& model, cons
   solver.solve(b, x);
   model.multiply_matrix(values.data(), x, Kx);
   if (!space.is_finite(x)) return std::nullopt;
-  // An iterative solver has looked at the error, which is small where the residual is not.
+  // An iterative solver has already checked the error, which may be small although the residual is large.
   if (solver.is_iterative() || space.norm(Kx - b) <= 1e-3 * space.norm(b)) return x;
   return std::nullopt;
-} catch (const RecoverableError&) {  // of an iterative solver
+} catch (const RecoverableError&) {  // the iterative solver did not converge
   return std::nullopt;
 }
 
@@ -87,9 +88,9 @@ std::vector<Vector> static_displacements(const FemModel& model, const std::vecto
   return out;
 }
 
-double share_reached(const VectorSpace& space, const StaticResponse& statics) {
+double load_duration_factor(const VectorSpace& space, const StaticResponse& statics) {
   const double deflection = space.largest_entry(statics.displacement);
-  return deflection > 0 ? std::min(1.0, 1.5 * statics.struck / deflection) : 1;
+  return deflection > 0 ? std::min(1.0, 1.5 * statics.impulse_amplitude / deflection) : 1;
 }
 
 StaticResponse static_response(const FemModel& model, const State& initial, double end) {
@@ -97,7 +98,7 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   const Vector& load = response.load;
   Vector momentum(load.size());
   model.multiply_mass(initial.v, momentum);
-  // Nothing to respond to; or velocities alone, of a body that nothing holds or that is too large for a scale's sake.
+  // Without loads, a factorisation is worthwhile only for initial velocities of a held body that is not too large.
   const VectorSpace space = model.space();
   const Eigen::Index unknowns = model.num_dofs_of_all();
   const bool is_free = unknowns == 3 * static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
@@ -112,14 +113,15 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   response.work = space.dot(*u, load);
   response.displacement = std::move(*u);
   response.known = true;
-  // Modes of frequency omega start with v and reach v/omega: the sum of (M v)^2/omega^2 is p K^-1 p.
+  // An M-normalised mode with angular frequency omega and initial velocity v reaches the amplitude v / omega. The sum
+  // of v^2 / omega^2 over all modes is p^T K^-1 p with the initial momentum p.
   const auto amplitude = [&](const Vector& p, const Vector& response_to_p) {
     return std::sqrt(std::max(space.dot(response_to_p, p), 0.0) / model.parts().mass->total());
   };
-  response.vibration = amplitude(momentum, *w);
+  response.velocity_amplitude = amplitude(momentum, *w);
   const Vector blow = impulse(model, initial, end);
   const std::optional<Vector> after = solve(blow);
-  response.struck = after ? amplitude(blow, *after) : std::numeric_limits<double>::infinity();
+  response.impulse_amplitude = after ? amplitude(blow, *after) : std::numeric_limits<double>::infinity();
   return response;
 }
 

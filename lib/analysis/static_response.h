@@ -1,5 +1,5 @@
-// The linear response about rest: to gravity and to all loads at the peaks of their factors, and to initial velocities.
-// How far the body will move, roughly, before anything is integrated.
+// Linear static response about rest to gravity and all loads at their peaks, and the amplitudes of vibrations that
+// initial velocities and impulses start. Both estimate the size of the motion before integration.
 #pragma once
 
 #include <vector>
@@ -9,28 +9,30 @@
 namespace orthodyn {
 
 struct StaticResponse {
-  Vector load;           // N, on the free coordinates of the initial shape
-  Vector displacement;   // m, under the load; empty if there is nothing to respond to or the body is not held
-  double work = 0;       // J, load . displacement
-  double vibration = 0;  // m, root mean square over the mass of the amplitudes that the initial velocities start
-  double struck = 0;     // m, likewise, that the impulses of all loads would start if they came at once: blows that end
-                         // within a period leave no more
+  Vector load;                    // peak loads on the free coordinates in the initial shape, N
+  Vector displacement;            // under `load`, m; empty if not computed, for example because the body is not held
+  double work = 0;                // load . displacement, J
+  double velocity_amplitude = 0;  // mass-weighted rms amplitude of vibrations started by initial velocities, m
+  // Likewise if the impulses of all loads acted at once, m: an upper estimate for loads shorter than a period.
+  double impulse_amplitude = 0;
 
   bool exists() const { return known; }
-  bool known = false;  // whether there is a displacement; of several ranks some may have no unknowns
+  bool known = false;  // whether a displacement was computed; a rank may have no unknowns
 };
 
-// Largest displacement of the motion over twice the static response: min(1, 1.5 struck / max |u|), without dimension.
-// Below 1 for short blows, where it may underestimate the motion of a light part.
-double share_reached(const VectorSpace& space, const StaticResponse& statics);
+// Estimated largest displacement of the motion divided by twice the static response u: min(1, 1.5 impulse_amplitude /
+// max |u|). Below 1 for short loads. It may then underestimate the motion of a light part.
+double load_duration_factor(const VectorSpace& space, const StaticResponse& statics);
 
-// From the initial state to the time `end`, s.
+// Computes the response for a motion from the initial state to `end` (s).
 StaticResponse static_response(const FemModel& model, const State& initial, double end);
 
-// The load of each of the model's terms of load alone, N, at its peak; zero for those that do nothing at rest.
+// Peak force (N) of each term of Parts::loads between the initial time and `end` (s); zero for terms without a force at
+// rest.
 std::vector<Vector> peak_loads(const FemModel& model, const State& initial, double end);
 
-// The displacement under each load, m, by one factorisation; all empty if the body is not held.
+// Displacement (m) under each load, by one factorisation. Empty where it cannot be computed; all are empty if the body
+// is not held.
 std::vector<Vector> static_displacements(const FemModel& model, const std::vector<Vector>& loads);
 
 }  // namespace orthodyn

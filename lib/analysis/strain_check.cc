@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "lib/analysis/strain_limits.h"
 
@@ -13,23 +12,23 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kMargin = 2;          // between Green's strain and that of the law; engineering shear counts twice
-constexpr double kOvershoot = 2;       // of a load applied at once, over its static response
-constexpr int kLargestSystem = 30000;  // unknowns that are factorised for a warning's sake
+constexpr double kMargin = 2;     // largest ratio of the law's strain to Green's strain; engineering shear counts twice
+constexpr double kOvershoot = 2;  // response to a suddenly applied load, relative to its static response
+constexpr int kLargestSystem = 30000;  // unknowns; a larger system is not factorised for a warning
 
-// The elements of a region beyond one limit.
+// The elements of a region that exceed one limit.
 struct Excess {
   int axis = 0, count = 0;
-  double worst = 0;  // sigma / E, as a strain
+  double worst = 0;  // stress over Young's modulus that exceeds the limit most
   StrainLimit limit{};
   double severity() const { return worst / limit.strain; }
 };
 
-// A column for each point, as ElasticTerm::strains() has them.
+// One column per point, as in ElasticTerm::strains().
 using Strains = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using AxialStrains = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-// Of all axes and signs the limit that is exceeded most; count 0 if none is.
+// The limit that is exceeded most, among all axes and signs; its count is 0 if none is exceeded.
 Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& limits, const AxialStrains& strains) {
   std::array<std::array<Excess, 2>, 3> found;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -60,15 +59,14 @@ Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& lim
 std::string warning(const ElasticTerm& term, const Excess& e, const std::string& cause) {
   const std::string means =
       e.limit.kind == LimitKind::flat
-          ? fmt::format("a bar of it that is pulled along this axis has no thickness left ({})",
-                        describe(e.limit, e.axis))
+          ? fmt::format("a bar under tension along this axis has no thickness left ({})", describe(e.limit, e.axis))
           : fmt::format(
-                "the corotational law is no longer elliptic ({}): patterns as small as the elements then come "
-                "from the mesh, not from the material",
+                "the law is no longer elliptic ({}): deformation localises in single elements and depends on the mesh",
                 describe(e.limit, e.axis));
   return fmt::format(
-      "region {}: {} {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
-      "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes",
+      "region {}: {} {} of {} elements along material axis {} to a strain (stress over Young's modulus) of {:+.3g} %; "
+      "the limit of the corotational law is {:+.3g} %, beyond which {}. Lower the load, or check the constants and "
+      "axes",
       term.region(), cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
 }
 
@@ -80,9 +78,9 @@ Strains small_strains(const ElasticTerm& term, const NodalVector& u) {
   return out;
 }
 
-// By a body of this material.
-bool may_be_met(const Stiffness& stiffness) {
-  for (const AxisLimits& axis : strain_limits(stiffness))
+// Whether a body of this material can reach a limit.
+bool has_reachable_limit(const ElasticTerm& term) {
+  for (const AxisLimits& axis : strain_limits(term.definition().stiffness))
     if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
   return false;
 }
@@ -97,27 +95,28 @@ double smallest(const std::array<AxisLimits, 3>& limits) {
 
 }  // namespace
 
-bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness) {
-  return model.num_dofs() <= kLargestSystem && std::any_of(stiffness.begin(), stiffness.end(), may_be_met);
+bool needs_strain_check(const FemModel& model) {
+  const auto& terms = model.parts().elastic;
+  return model.num_dofs() <= kLargestSystem &&
+         std::any_of(terms.begin(), terms.end(), [](const auto& term) { return has_reachable_limit(*term); });
 }
 
-Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& stiffness, const State& initial,
-                         const StaticResponse& statics) {
+Warnings strain_warnings(const FemModel& model, const State& initial, const StaticResponse& statics) {
   Warnings out;
   NodalVector u = NodalVector::Zero(3, model.parts().rest->cols());
   if (statics.exists()) model.parts().dofs->add_to(statics.displacement, u);
   const NodalExpansion start(model.parts(), initial.t, initial.q, initial.v);
-  for (std::size_t r = 0; r < stiffness.size(); ++r) {
-    const auto& term = model.parts().elastic[r];
-    const auto limits = strain_limits(stiffness[r]);
-    const Mat36 equivalent = stress_over_young(stiffness[r]);
+  for (const auto& term : model.parts().elastic) {
+    const Stiffness& stiffness = term->definition().stiffness;
+    const auto limits = strain_limits(stiffness);
+    const Mat36 equivalent = stress_over_young(stiffness);
     const auto check = [&](const std::string& cause, const Strains& strains) {
       const Excess excess = find_excess(*term, limits, equivalent * strains);
       if (excess.count > 0) out.push_back(warning(*term, excess, cause));
     };
     if (statics.exists())
-      check("twice the linear static response to the loads puts", kOvershoot * small_strains(*term, u));
-    if (!initial.q.isZero(0)) check("the initial deformation puts", term->strains(start.state()));
+      check("twice the linear static response to the loads strains", kOvershoot * small_strains(*term, u));
+    if (!initial.q.isZero(0)) check("the initial deformation strains", term->strains(start.state()));
   }
   return out;
 }
@@ -133,14 +132,14 @@ std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalStat
     if (term->largest_green_strain(state) < far_off) continue;
     const Excess excess = find_excess(*term, limits, equivalent * term->strains(state));
     if (excess.count > 0 && (!worst || excess.severity() > worst->share))
-      worst = {excess.severity(), warning(*term, excess, "the motion put")};
+      worst = {excess.severity(), warning(*term, excess, "the motion strained")};
   }
   return worst;
 }
 
 bool has_strain_limits(const FemModel& model) {
   return std::any_of(model.parts().elastic.begin(), model.parts().elastic.end(), [](const auto& term) {
-    return term->definition().options.kinematics != Kinematics::linear && may_be_met(term->definition().stiffness);
+    return term->definition().options.kinematics != Kinematics::linear && has_reachable_limit(*term);
   });
 }
 

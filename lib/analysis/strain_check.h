@@ -1,34 +1,30 @@
-// Warns where a corotational body may be strained beyond what the law holds for (strain_limits.h): by twice the linear
-// static response to its dead loads and gravity, which is what a suddenly applied load reaches, or by its initial
-// deformation. What motion alone may do (initial velocity, resonance, impact) is not foreseen.
+// Warns if a corotational body may be strained beyond the limits of the law (strain_limits.h). Two strains are checked:
+// those of twice the linear static response to the peak loads and gravity, which a suddenly applied load reaches, and
+// those of the initial deformation. Strains that only the motion causes (initial velocity, resonance, impact) are not
+// predicted.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "lib/analysis/static_response.h"
-#include "lib/material/stiffness.h"
 
 namespace orthodyn {
 
-// `stiffness` is that of each elastic term of the model, in their order.
-//
-// Whether there is anything to check: limits that a body may meet. Very large models are left out of what costs a
-// factorisation.
-bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness);
+// Whether any region has a strain limit that a body can reach. False for models with more than 30,000 unknowns, for
+// which the factorisation is too expensive.
+bool needs_strain_check(const FemModel& model);
 
-Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& stiffness, const State& initial,
-                         const StaticResponse& statics);
+Warnings strain_warnings(const FemModel& model, const State& initial, const StaticResponse& statics);
 
-// Where a state is strained beyond a limit: the worst of all regions.
+// The region that exceeds its strain limit most in a state.
 struct StrainExcess {
-  double share = 0;      // of the strain, over the limit
-  std::string sentence;  // "puts 3 of 400 elements along material axis 1 under ..."
+  double share = 0;      // strain divided by its limit
+  std::string sentence;  // "region wood: the motion strained 3 of 400 elements along material axis 1 to ..."
 };
 std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state);
 
-// Whether there is a limit that a body may meet, however large its model.
+// Whether any corotational region has a strain limit that a body can reach, in a model of any size.
 bool has_strain_limits(const FemModel& model);
 
 }  // namespace orthodyn

@@ -4,31 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
-#include "lib/analysis/acoustic.h"
 #include "lib/element/corotational_law.h"
 
 namespace orthodyn {
 
 namespace {
 
-// Axis i against axis j under stress along i.
+// The plane of axes i and j under uniaxial stress along i, with E_i, nu_ij and mu_ij.
 struct Plane {
   int j;
   double young, nu, mu;
 };
 
-// Below this strain the body has collapsed. (An isotropic one has a double root of all conditions at -1.)
+// The body has collapsed below this strain. (For isotropic materials all conditions have a double root at -1.)
 constexpr double kCollapse = -0.99;
 
-// Keeps the candidate if it lies nearer to rest.
+// Keeps the candidate if it is closer to zero strain than the present limit.
 void tighten(AxisLimits& limits, const StrainLimit& candidate) {
   auto& side = candidate.strain < 0 ? limits.compression : limits.tension;
   if (candidate.strain <= kCollapse) return;
   if (!side || std::abs(candidate.strain) < std::abs(side->strain)) side = candidate;
 }
 
-// 4 mu (1 - nu e)^2 + E e (3 + (1 - 2 nu) e) = 0.
+// Solves 4 mu (1 - nu e)^2 + E e (3 + (1 - 2 nu) e) = 0 for the strain e.
 void add_kink(const Plane& p, AxisLimits& limits) {
   const double a = 4 * p.mu * p.nu * p.nu + p.young * (1 - 2 * p.nu);
   const double b = 3 * p.young - 8 * p.mu * p.nu;
@@ -48,7 +49,7 @@ void add_flattening(const Plane& p, AxisLimits& limits) {
   if (p.nu != 0) tighten(limits, {1 / p.nu, LimitKind::flat, p.j});
 }
 
-// 1 / S_ii and so on need the compliance; the moduli may be decades apart, so of a unit diagonal.
+// Inverse of C. C is scaled to unit diagonal because the moduli may differ by decades.
 Mat6 compliance(const Mat6& C) {
   const Vec6 scale = C.diagonal().cwiseSqrt().cwiseInverse();
   const Mat6 unit = scale.asDiagonal() * C * scale.asDiagonal();
@@ -70,13 +71,13 @@ std::array<AxisLimits, 3> orthotropic_limits(const Mat6& S) {
   return out;
 }
 
-// S = I + e of a unit strain along the axis under stress along it alone.
+// Strain tensor under uniaxial stress along the axis, scaled to unit strain along the axis.
 Mat3 uniaxial_strain(const Mat6& S, int axis) {
   const Vec6 e = S.col(axis) / S(axis, axis);
   return (Mat3() << e[0], e[3] / 2, e[5] / 2, e[3] / 2, e[1], e[4] / 2, e[5] / 2, e[4] / 2, e[2]).finished();
 }
 
-// The strain nearest to rest on the side of `end` at which the law holds no more; none up to `end`.
+// The strain closest to zero, between 0 and `end`, at which the law fails; nullopt if the law holds up to `end`.
 template <class Holds>
 std::optional<double> first_failure(const Holds& holds, double end) {
   constexpr int kSteps = 50, kBisections = 10;
@@ -94,6 +95,36 @@ std::optional<double> first_failure(const Holds& holds, double end) {
     return bad;
   }
   return std::nullopt;
+}
+
+// Directions on a half sphere, about 7 degrees apart, the coordinate axes included.
+std::vector<Vec3> half_sphere() {
+  constexpr int kSteps = 12;  // from the pole, axis 1, to the equator
+  constexpr double kRightAngle = 0.5 * std::numbers::pi;
+  std::vector<Vec3> out;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j < 4 * kSteps; ++j) {
+      const double theta = kRightAngle * i / kSteps, phi = kRightAngle * j / kSteps;
+      out.emplace_back(std::cos(theta), std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi));
+    }
+  return out;
+}
+
+bool is_positive_definite(const Mat3& A) {  // by the leading minors
+  return A(0, 0) > 0 && A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0) > 0 && A.determinant() > 0;
+}
+
+// Whether the law is strongly elliptic: the acoustic tensor A_ac = H_abcd n_b n_d with H = d2Psi/dF2 is positive
+// definite for all sampled directions n.
+bool is_strongly_elliptic(const Mat9& H) {
+  static const std::vector<Vec3> directions = half_sphere();
+  for (const Vec3& n : directions) {
+    Mat3 A = Mat3::Zero();
+    for (int b = 0; b < 3; ++b)
+      for (int d = 0; d < 3; ++d) A += n[b] * n[d] * H.block<3, 3>(3 * b, 3 * d);
+    if (!is_positive_definite(A)) return false;
+  }
+  return true;
 }
 
 std::array<AxisLimits, 3> searched_limits(const AnisotropicStiffness& C) {

@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "lib/config/yaml_document.h"
-#include "lib/config/yaml_write.h"
 #include "lib/core/parse_number.h"
 #include "lib/core/spelling.h"
 
@@ -19,18 +18,17 @@ namespace orthodyn {
 
 namespace {
 
-// By path: what a value set later has made, with the names beside it.
-using MadeEntries = std::map<std::string, std::vector<std::string>>;
+// By path: keys that set() created, with the names of the other keys of the section.
+using CreatedKeys = std::map<std::string, std::vector<std::string>>;
 
-// "mesh.cells.0" of "mesh.cells" is ".0"; nothing if it is neither that nor below it.
+// ".0" for the path "mesh.cells.0" and the top "mesh.cells"; none if `path` is neither `top` nor below it.
 std::optional<std::string> rest_below(const std::string& path, const std::string& top) {
   if (!path.starts_with(top) || (path.size() > top.size() && path[top.size()] != '.')) return {};
   return path.substr(top.size());
 }
 
-// The first entry on the way to a value that the section there lacks: one that its name may have been mistyped for
-// stands beside it.
-void remember_made(MadeEntries& made, YAML::Node node, const std::string& base, const std::string& path) {
+// Records the first key along `path` that does not exist yet, for spelling suggestions: it may be a typing error.
+void record_created(CreatedKeys& created, YAML::Node node, const std::string& base, const std::string& path) {
   std::istringstream steps(path);
   std::string reached = base;
   for (std::string step; std::getline(steps, step, '.') && node.IsMap();) {
@@ -38,16 +36,11 @@ void remember_made(MadeEntries& made, YAML::Node node, const std::string& base, 
     const YAML::Node& section = node;  // const: operator[] must not create the key
     const YAML::Node next = section[step];
     if (!next.IsDefined()) {
-      for (const auto& entry : section) made[reached].push_back(entry.first.Scalar());
+      for (const auto& entry : section) created[reached].push_back(entry.first.Scalar());
       return;
     }
     node.reset(next);
   }
-}
-
-void remember(std::map<std::string, std::string>& set, const std::string& path, const std::string& place) {
-  std::erase_if(set, [&](const auto& entry) { return rest_below(entry.first, path).has_value(); });
-  set[path] = place;
 }
 
 }  // namespace
@@ -56,18 +49,29 @@ struct Config::Document {
   std::string file;
   YAML::Node root;
   bool records_defaults = false;
-  Origins included;                                                 // what does not stand in `file`
-  std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
-  MadeEntries made = {};                                            // of values set later
+  Origins included;                        // file of origin of values that were included
+  std::map<std::string, std::string> set;  // by path: origin of each value written by set(), or ""
+  CreatedKeys created = {};                // keys created by set()
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
   std::vector<std::string> warnings = {};
+  std::map<std::string, std::string> former = {};  // by path: keys under which renamed ones were parsed
 };
 
 struct Config::Place {
   std::shared_ptr<Document> document;
   YAML::Node node;
-  YAML::Node parsed;  // the node that was read from a file, which has the line; undefined for a default
+  YAML::Node parsed;  // the node as parsed, which knows its line; undefined for a default
   std::string path;
+
+  // Writes below this place. `origin`: place for error messages; `source`: the place given by the caller, or "".
+  void write(const std::string& below, const YAML::Node& value, const std::string& origin,
+             const std::string& source) const {
+    record_created(document->created, node, path, below);
+    write_at(document->root, node, below, value, origin);
+    const std::string whole = child_path(path, below);
+    std::erase_if(document->set, [&](const auto& entry) { return rest_below(entry.first, whole).has_value(); });
+    document->set[whole] = source;
+  }
 };
 
 Config::Config(std::shared_ptr<const Place> place) : place_(std::move(place)) {}
@@ -89,29 +93,23 @@ Config Config::resolving() const { return place_->document->records_defaults ? *
 Config Config::copy(bool resolving) const {
   const Document& original = *place_->document;
   auto document = std::make_shared<Document>(Document{
-      original.file, YAML::Clone(place_->node), resolving, original.included, original.set, original.made, {}});
+      original.file, YAML::Clone(place_->node), resolving, original.included, original.set, original.created, {}});
   return Config(std::make_shared<Place>(Place{document, document->root, place_->parsed, place_->path}));
 }
 
 void Config::set(const std::string& path, const ConfigValue& value, const std::string& place) {
-  remember_made(place_->document->made, place_->node, place_->path, path);
-  write_at(place_->document->root, place_->node, path, node_of(value), place.empty() ? "--set " + path : place);
-  remember(place_->document->set, child_path(place_->path, path), place);
+  place_->write(path, node_of(value), place.empty() ? "--set " + path : place, place);
 }
 
 void Config::set(const std::string& path, const Config& value, const std::string& place) {
   YAML::Node copy = YAML::Clone(value.place_->node);
   put_on_one_line(copy);
-  remember_made(place_->document->made, place_->node, place_->path, path);
-  write_at(place_->document->root, place_->node, path, copy, place.empty() ? "--set " + path : place);
-  remember(place_->document->set, child_path(place_->path, path), place);
+  place_->write(path, copy, place.empty() ? "--set " + path : place, place);
 }
 
 void Config::set_yaml(const std::string& path, const std::string& yaml, const std::string& place) {
   const std::string origin = place.empty() ? fmt::format("--set {}={}", path, yaml) : place;
-  remember_made(place_->document->made, place_->node, place_->path, path);
-  write_at(place_->document->root, place_->node, path, parse_yaml(yaml + "\n", origin), origin);
-  remember(place_->document->set, child_path(place_->path, path), place);
+  place_->write(path, parse_yaml(yaml + "\n", origin), origin, place);
 }
 
 void Config::override_with(const std::string& assignment) {
@@ -133,9 +131,13 @@ template <class Step>
 Config Config::child(const Step& step, const std::string& name) const {
   const YAML::Node &node = place_->node, &parsed = place_->parsed;  // const: operator[] must not create the key
   const bool has_lines = parsed.IsDefined() && (parsed.IsMap() || parsed.IsSequence());
-  return Config(std::make_shared<Place>(Place{place_->document, node[step],
-                                              has_lines ? parsed[step] : YAML::Node(YAML::NodeType::Undefined),
-                                              child_path(place_->path, name)}));
+  const std::string path = child_path(place_->path, name);
+  const auto former = place_->document->former.find(path);
+  const auto parsed_child = [&] {
+    if (!has_lines) return YAML::Node(YAML::NodeType::Undefined);
+    return former == place_->document->former.end() ? parsed[step] : parsed[former->second];
+  };
+  return Config(std::make_shared<Place>(Place{place_->document, node[step], parsed_child(), path}));
 }
 
 Config Config::at(std::size_t index) const { return child(index, std::to_string(index)); }
@@ -153,7 +155,7 @@ bool Config::has(const std::string& key) const {
   return node.IsMap() && node[key].IsDefined();
 }
 
-// yaml-cpp tags what is in quotes by "!".
+// yaml-cpp tags quoted scalars by "!".
 bool Config::is_quoted() const { return is_scalar() && place_->node.Tag() == "!"; }
 
 bool Config::reads_as_number() const {
@@ -165,16 +167,14 @@ double Config::number() const {
   double value = 0;
   if (is_quoted() && parse_number(place_->node.Scalar(), value))
     fail(fmt::format("expected a number, found the text {}: remove the quotes", shown()), InputFault::form);
-  if (!is_scalar() || !parse_number(place_->node.Scalar(), value))
-    fail(fmt::format("expected a number, found {}", shown()), InputFault::form);
-  if (!std::isfinite(value)) fail(fmt::format("expected a finite number, found {}", shown()), InputFault::form);
+  if (!is_scalar() || !parse_number(place_->node.Scalar(), value)) fail_expected("a number");
+  if (!std::isfinite(value)) fail_expected("a finite number");
   return value;
 }
 
 long Config::integer() const {
   const double value = number();
-  if (value != std::floor(value) || std::abs(value) > 9e15)
-    fail(fmt::format("expected a whole number, found {}", shown()), InputFault::form);
+  if (value != std::floor(value) || std::abs(value) > 9e15) fail_expected("a whole number");
   return static_cast<long>(value);
 }
 
@@ -184,11 +184,11 @@ bool Config::boolean() const {
     fail(fmt::format("expected true or false, found the text {}: remove the quotes", shown()), InputFault::form);
   if (value == "true") return true;
   if (value == "false") return false;
-  fail(fmt::format("expected true or false, found {}", shown()), InputFault::form);
+  fail_expected("true or false");
 }
 
 std::string Config::text() const {
-  if (!is_scalar()) fail(fmt::format("expected a text, found {}", shown()), InputFault::form);
+  if (!is_scalar()) fail_expected("a text");
   return place_->node.Scalar();
 }
 
@@ -209,6 +209,7 @@ Config Config::fill_text(const std::string& key, const std::string& text) const 
 void Config::rename(const std::string& former, const std::string& name) const {
   assert(place_->document->records_defaults);
   YAML::Node node = place_->node;
+  place_->document->former[child_path(place_->path, name)] = former;
   node[name] = node[former];
   node.remove(former);
 }
@@ -224,7 +225,7 @@ std::string Config::shown() const {
 
 std::string Config::where() const {
   const auto& document = *place_->document;
-  for (auto it = document.set.rbegin(); it != document.set.rend(); ++it)  // what is further below comes first
+  for (auto it = document.set.rbegin(); it != document.set.rend(); ++it)  // deeper paths first
     if (const auto rest = rest_below(place_->path, it->first))
       return it->second.empty() ? fmt::format("{}: --set {}", document.file, place_->path) : it->second + *rest;
   const std::string place = place_->parsed.IsDefined() ? mark_text(file(), place_->parsed.Mark()) : document.file;
@@ -267,14 +268,18 @@ void Config::warn(const std::string& message) const {
 const std::vector<std::string>& Config::warnings() const { return place_->document->warnings; }
 
 void Config::fail(const std::string& message, InputFault fault) const {
-  const auto made = place_->document->made.find(place_->path);
+  const auto created = place_->document->created.find(place_->path);
   std::string hint;
-  if (made != place_->document->made.end()) {
+  if (created != place_->document->created.end()) {
     const std::string name = place_->path.substr(place_->path.rfind('.') + 1);
-    hint = did_you_mean(name, made->second);
-    if (!hint.empty()) hint = "; '" + name + "' is new here" + hint;
+    hint = did_you_mean(name, created->second);
+    if (!hint.empty()) hint = "; '" + name + "' is a new key" + hint;
   }
   throw ConfigError(where(), message + hint, fault);
+}
+
+void Config::fail_expected(const std::string& expected, const std::string& hint) const {
+  fail("expected " + expected + ", found " + shown() + hint, InputFault::form);
 }
 
 std::string Config::yaml() const {

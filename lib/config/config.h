@@ -1,11 +1,10 @@
-// A position in the user's YAML input: the only door to yaml-cpp.
+// A place in the user's YAML input. Other modules use yaml-cpp only through this class.
 //
-// A Config knows where it stands (file:line:column and dotted path), so that whatever is wrong with a value can be said
-// with its place. Reading leaves the document as it is: a default is taken from the code and written nowhere, but into
-// a resolving copy, whose dump() is the document with every default spelled out.
+// Messages give the file:line:column and the dotted path of the place. Reading does not change the document. Defaults
+// are written only into a resolving() copy, whose dump() is the document with every default spelled out.
 //
-// A Config is a handle: copies of it are the same place of the same document, which copy() is not. Different documents
-// may be used by different threads.
+// A Config is a handle: its C++ copies refer to the same document; copy() makes a new document. Threads may use
+// different documents at the same time.
 #pragma once
 
 #include <cstddef>
@@ -18,33 +17,32 @@
 
 namespace orthodyn {
 
-// What a program writes into a document: null, a scalar or a list of texts.
+// A value to write into a document: null, a scalar or a list of texts.
 using ConfigValue = std::variant<std::nullptr_t, bool, long, double, std::string, std::vector<std::string>>;
 
 class Config {
  public:
-  // Reads a file or a text; `name` stands for the file in messages. In any section the key `include` names a file, or a
-  // list of files, whose keys stand there too: what the section says itself wins, later files win over earlier ones,
-  // and sections within are joined in the same way. Throws ConfigError for a missing or unreadable
-  // file, a syntax error, more than one document, duplicate keys, merge keys (<<), tags, and files that
-  // include themselves.
+  // Reads a file or a text; messages show `name` as the file name of a text. The key `include` of any section names a
+  // file or a list of files whose keys are added to the section. Keys of the section itself take precedence over
+  // included ones, and later files over earlier ones; nested sections are merged likewise. Throws ConfigError for a
+  // missing or unreadable file, a syntax error, more than one document, duplicate keys, merge keys (<<), tags, and
+  // files that include themselves.
   static Config from_file(const std::string& path);
   static Config from_text(const std::string& text, const std::string& name = "<text>");
 
-  // What stands here and below, as a document of its own: it can be changed, and speaks of the same places.
+  // Copies the content of this place into a new document. Messages about the copy name the original places.
   Config copy() const;
 
-  // A copy that records the defaults taken from it and the files that it names; this itself if it is one.
+  // A copy that records defaults and the names of files as they are read. Returns this Config if it already does so.
   Config resolving() const;
 
-  // Writes a value at a path below this, such as "mesh.cells.0". Sections that are missing are made. `place` is where
-  // the value comes from, for messages about it and what is below; default "--set path". A section or list is written
-  // on one line. Throws ConfigError where the path leads through a value, or where an alias would carry the change to
-  // other places.
+  // Writes a value at a path below this place, such as "mesh.cells.0"; creates missing sections. `place`: the origin of
+  // the value for messages, default "--set path". dump() writes a section or list from set() on one line. Throws
+  // ConfigError if the path leads through a scalar, or if an alias would change other places too.
   void set(const std::string& path, const ConfigValue& value, const std::string& place = "");
   void set(const std::string& path, const Config& value, const std::string& place = "");
 
-  // The same of "path=value" as a user writes it: the value is YAML.
+  // As set(), from an assignment "path=value", as users write it after --set, or from a value in YAML.
   void override_with(const std::string& assignment);
   void set_yaml(const std::string& path, const std::string& yaml, const std::string& place = "");
 
@@ -62,52 +60,52 @@ class Config {
   bool is_quoted() const;  // a scalar in quotes, which is a text
   bool reads_as_number() const;
 
-  // Scalars, strictly: a number is finite, an integer integral, and neither is in quotes, nor is true or false. Throws
-  // ConfigError.
+  // The value of a scalar. Throw ConfigError for another kind of value, for a number that is not finite, and for a
+  // number, integer or boolean in quotes.
   double number() const;
   long integer() const;
   bool boolean() const;
   std::string text() const;
 
-  // Writes a default (as YAML, or as a plain text) into this map, for dump(). Creates the key where it is missing.
+  // Writes a default, given as YAML or as plain text, into this map, so that dump() shows it. Returns its place.
   // Precondition: this is a resolving() Config.
   Config fill(const std::string& key, const std::string& yaml) const;
   Config fill_text(const std::string& key, const std::string& text) const;
 
-  // Gives a key of this map another name. Preconditions: this is a resolving() Config that has `former` and not `name`.
+  // Renames a key of this map. Preconditions: this is a resolving() Config that has `former` and not `name`.
   void rename(const std::string& former, const std::string& name) const;
 
-  // What stands here, shortened, for messages.
+  // The value, shortened for messages.
   std::string shown() const;
 
-  // "file:line:column: path", for a default "file: path", for a value that was set its own place, or else "file: --set
-  // path".
+  // "file:line:column: path"; "file: path" for a default; for a value from set(), its `place` or "file: --set path".
   std::string where() const;
   std::string path() const;
   std::string file() const;
 
-  // A file named by this value, relative to the folder of the input file that says so.
+  // The file named by this value; relative names are relative to the folder of the input file.
   std::string file_path() const;
 
-  // The files that have been asked for so far in this document, which is a resolving() one.
+  // All results of file_path() so far. Precondition: this is a resolving() Config.
   std::vector<std::string> file_paths() const;
 
-  // Records a warning about this place for the user, unless the document has it already.
+  // Records a warning about this place, once.
   void warn(const std::string& message) const;
-  // The warnings of the whole document, "place: message", in the order in which they were recorded.
+  // All warnings of the document, "place: message", in the order of recording.
   const std::vector<std::string>& warnings() const;
 
   // Throws a ConfigError with this place.
   [[noreturn]] void fail(const std::string& message, InputFault fault = InputFault::value) const;
+  // Throws "expected ..., found ...", a ConfigError of kind InputFault::form.
+  [[noreturn]] void fail_expected(const std::string& expected, const std::string& hint = "") const;
 
-  // What stands here, as YAML on one line.
+  // This value as YAML on one line.
   std::string yaml() const;
 
   // The whole document as YAML.
   std::string dump() const;
 
-  // The same for a reader in another folder: the files asked for so far are named relative to it, or in
-  // full if it is empty.
+  // As dump(), for a file in `folder`: file_paths() are written relative to `folder`, or as absolute paths if it is "".
   std::string dump_for(const std::string& folder) const;
 
  private:

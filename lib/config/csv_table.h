@@ -1,4 +1,4 @@
-// A table of numbers from a CSV file: a line of column names, then rows with a number for each.
+// A table of numbers from a CSV file: a line of column names, then rows of numbers.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,21 +14,21 @@ struct CsvTable {
   std::string path;
   std::vector<std::string> names;
   std::vector<double> values;  // row by row
-  std::vector<int> lines;      // of each row in the file
+  std::vector<int> lines;      // line number of each row
 
   std::size_t rows() const { return lines.size(); }
   double at(std::size_t row, std::size_t column) const { return values[row * names.size() + column]; }
   bool has(const std::string& name) const;
-  std::size_t column(const std::string& name) const;  // which must be there
-  // A whole number from 0, as elements and nodes are counted. Throws ConfigError for any other.
+  std::size_t column(const std::string& name) const;  // precondition: has(name)
+  // The entry as the index of a node or an element. Throws ConfigError unless it is an integer from 0 to 2e9.
   int index(std::size_t row, const std::string& name) const;
   std::string where(std::size_t row) const { return fmt::format("{}:{}", path, lines[row]); }
 };
 
-// Reads a file whose columns are all of `required` and any of `optional`, in any order. Separators are
-// commas; empty lines and lines that begin with # are left out. Throws ConfigError "file:line: ..." for a
-// name that is unknown, missing or there twice, a row with more or fewer entries, and what is no finite
-// number; and "<file.where>: ..." if there is no such file or no row.
+// Reads a file that has all `required` columns and any of the `optional` ones, in any order. Commas separate entries;
+// empty lines and lines that start with # are skipped. Throws ConfigError "file:line: ..." for an unknown, missing or
+// repeated column name, a row with too few or too many entries, and an entry that is not a finite number. Throws
+// "<file.where>: ..." if the file does not exist, cannot be read or has no rows.
 CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional = {});
 

@@ -4,11 +4,13 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 
 #include "lib/core/spelling.h"
+#include "lib/core/units.h"
 #include "lib/core/versions.h"
 
 namespace orthodyn {
@@ -17,24 +19,29 @@ namespace {
 
 const bool version_registered = library_versions().emplace("muParser", mu::Parser().GetVersion(mu::pviBRIEF)).second;
 
-// muParser would change the variable.
+// Throws if the text contains a single "=", with which muParser would assign to a variable.
 void refuse_assignment(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '=') continue;
     if (i + 1 < text.size() && text[i + 1] == '=') ++i;
     else if (i == 0 || std::string("<>!").find(text[i - 1]) == std::string::npos)
-      throw std::invalid_argument("It assigns a value; to compare, write ==.");
+      throw std::invalid_argument("A formula must not assign a value; to compare, write ==.");
   }
 }
 
-// As in Python and Fortran.
 void refuse_double_star(const std::string& text) {
   if (text.find("**") != std::string::npos)
     throw std::invalid_argument("A power is written ^, as in sin(t)^2, not **.");
 }
 
-// muParser ends some of its messages with a full stop, others without.
+// Only some of muParser's messages end with a full stop.
 std::string as_sentence(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
+
+// True for a number followed by a word: "12 kPa", "3 furlongs".
+bool has_unit(const std::string& text) {
+  const auto parts = split_quantity(text);
+  return parts && std::isalpha(static_cast<unsigned char>(parts->unit[0]));
+}
 
 }  // namespace
 
@@ -42,8 +49,8 @@ struct Formula::Parsed {
   double at(const double* values) const;
 
   std::vector<std::string> names;
-  mutable std::mutex mutex;               // of the next two: muParser keeps its stack between calls
-  mutable std::vector<double> variables;  // where muParser looks them up
+  mutable std::mutex mutex;               // guards `variables` and `parser`, which keeps its stack between calls
+  mutable std::vector<double> variables;  // read by muParser
   mu::Parser parser;
 };
 
@@ -52,7 +59,7 @@ double Formula::Parsed::at(const double* values) const {
   std::copy_n(values, variables.size(), variables.begin());
   try {
     return parser.Eval();
-  } catch (const mu::Parser::exception_type&) {  // no std::exception
+  } catch (const mu::Parser::exception_type&) {  // not a std::exception
     return std::nan("");
   }
 }
@@ -72,8 +79,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
     refuse_double_star(text);
     parser.SetExpr(text);
     parser.Eval();
-    if (parser.GetNumResults() > 1)
-      throw std::invalid_argument("It gives several values, because a comma separates them; write a decimal point.");
+    if (parser.GetNumResults() > 1) throw std::invalid_argument("A comma separates two values; write a decimal point.");
   } catch (const mu::Parser::exception_type& e) {
     throw std::invalid_argument(as_sentence(e.GetMsg()));
   }
@@ -98,6 +104,22 @@ double Formula::evaluate(const double* values) const {
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {
   c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.",
                      c.shown(), complaint, known));
+}
+
+ValueSchema Value<PointQuantity>::schema() {
+  return {.kind = ValueSchema::Kind::either,
+          .words = std::string("number or formula of ") + PointFormula::kVariables,
+          .items = {Value<double>::schema(), Value<std::string>::schema()}};
+}
+
+PointQuantity Value<PointQuantity>::read(const Config& c, const Rule& r) {
+  if (!c.is_scalar() || c.reads_as_number()) return read_number(c, r);
+  try {
+    return PointQuantity(PointFormula(c.text(), c.where()));
+  } catch (const std::invalid_argument& e) {
+    if (has_unit(c.text())) return read_number(c, r);
+    fail_formula(c, PointFormula::kVariables, e.what());
+  }
 }
 
 }  // namespace orthodyn

@@ -1,12 +1,13 @@
-// Formulas of the input, such as "105*sin(pi*y/12)": muParser's syntax, the constants pi and e, and
-// variables that depend on where the formula stands: the coordinates x, y, z of a point in m, the time t
-// in s. The only door to muParser. Formulas may be evaluated by several threads; copies of one wait for each other.
+// Formulas in the input, such as "105*sin(pi*y/12)", in muParser's syntax with the constants pi and e. Variables are
+// the coordinates x, y, z (m), the time t (s), or both. Thread-safe; evaluations of copies of one formula are
+// serialised.
 #pragma once
 
 #include <concepts>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "lib/config/values.h"
@@ -16,18 +17,18 @@ namespace orthodyn {
 
 class Formula {
  public:
-  // Throws std::invalid_argument with muParser's complaint.
+  // `where`: place in the input, for messages. Throws std::invalid_argument with muParser's message.
   Formula(const std::string& text, const std::vector<std::string>& variables, std::string where);
   const std::string& text() const { return text_; }
   bool uses(const std::string& variable) const;
 
  protected:
-  // The values of the variables, in their order. Throws ConfigError where the result is not a number.
+  // `values`: one per variable, in the order given to the constructor. Throws ConfigError if the result is not finite.
   double evaluate(const double* values) const;
 
  private:
   struct Parsed;
-  std::string text_, where_;  // and its place in the input
+  std::string text_, where_;
   std::shared_ptr<const Parsed> parsed_;
 };
 
@@ -60,7 +61,7 @@ class TimePointFormula : public Formula {
   }
 };
 
-// Throws ConfigError with what may be written; `known` are the variables.
+// Throws ConfigError for a formula that cannot be parsed. `known`: the variables; `complaint`: muParser's message.
 [[noreturn]] void fail_formula(const Config& c, const std::string& known, const std::string& complaint);
 
 template <class F>
@@ -79,6 +80,34 @@ struct Value<F> {
     }
   }
   static std::string yaml(const F& f) { return f.text(); }
+};
+
+// A quantity that may vary in space: a number, optionally with a unit ("12 kPa"), or a formula of the coordinates x, y,
+// z (m) whose value is in the key's SI unit: "9810*(2 - z)".
+class PointQuantity {
+ public:
+  PointQuantity(double value = 0) : value_(value) {}
+  explicit PointQuantity(PointFormula formula) : value_(std::move(formula)) {}
+
+  // True for a number, false for a formula.
+  bool uniform() const { return std::holds_alternative<double>(value_); }
+
+  // Throws ConfigError if a formula is not finite at x.
+  double at(const Vec3& x) const { return uniform() ? std::get<double>(value_) : std::get<PointFormula>(value_).at(x); }
+
+  std::string text() const {
+    return uniform() ? number_text(std::get<double>(value_)) : std::get<PointFormula>(value_).text();
+  }
+
+ private:
+  std::variant<double, PointFormula> value_;
+};
+
+template <>
+struct Value<PointQuantity> {
+  static ValueSchema schema();
+  static PointQuantity read(const Config& c, const Rule& r);
+  static std::string yaml(const PointQuantity& q) { return q.text(); }
 };
 
 }  // namespace orthodyn

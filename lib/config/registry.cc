@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/config/yaml_slips.h"
+#include "lib/config/yaml_typos.h"
 #include "lib/core/spelling.h"
 
 namespace orthodyn {
@@ -15,9 +15,8 @@ std::vector<std::string>& registry_conflicts() {
 std::string registered_type(const Config& config, const std::vector<std::string>& names,
                             const std::map<std::string, std::string>& former_names) {
   if (!config.is_map())
-    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown() +
-                    (config.is_scalar() ? missing_space(config.text()) : ""),
-                InputFault::form);
+    config.fail_expected("a section with the key 'type' (" + join(names) + ")",
+                         config.is_scalar() ? missing_space(config.text()) : "");
   if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names));
   const Config type = config.at("type");
   const std::string name = type.text();

@@ -1,8 +1,8 @@
-// Things that the input chooses by name: `type: box`. One file declares one thing and registers it:
+// Implementations that the input chooses by name (`type: box`). Each source file registers its implementation:
 //
 //   const bool box_registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
 //
-// T derives from Base and has a static spec(); a static facts() may tell more about it, for lists.
+// T in add<T>() derives from Base and has a static spec(). An optional static facts() adds properties for lists.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@
 
 namespace orthodyn {
 
-// Names that were to be registered although they were taken: a plugin's mistake.
+// Names that a faulty plugin registered a second time.
 std::vector<std::string>& registry_conflicts();
 
-// The key `type` of a section, which must be one of the names. Throws ConfigError.
-// Of a former name, that which replaces it, with a warning.
+// Reads the key `type` of a section. Replaces a former name by the present one, with a warning. Throws ConfigError for
+// names not in `names`.
 std::string registered_type(const Config& config, const std::vector<std::string>& names,
                             const std::map<std::string, std::string>& former_names);
 
@@ -28,7 +28,7 @@ class Registry {
  public:
   struct Entry : Alternative {
     std::function<std::shared_ptr<const Base>(const Config&)> read;
-    std::function<std::shared_ptr<const Base>()> make;  // with the defaults of its keys
+    std::function<std::shared_ptr<const Base>()> make;  // an object with the defaults of its keys
   };
 
   static const std::map<std::string, Entry>& entries() { return mutable_entries(); }
@@ -48,7 +48,7 @@ class Registry {
     return is_new;
   }
 
-  // `former` is read as `name`, with a warning.
+  // Accepts `former` for `name`, with a warning.
   static bool rename(const std::string& former, const std::string& name) {
     return former_names().emplace(former, name).second;
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/config/yaml_slips.h"
+#include "lib/config/yaml_typos.h"
 #include "lib/core/spelling.h"
 
 namespace orthodyn {
@@ -19,7 +19,7 @@ bool is_given(const Config& section, const std::string& name) {
   return section.has(name) && !section.at(name).is_null();
 }
 
-// A key that its section lacks. A section around it may have it, and then says so.
+// An unknown key. If an enclosing section has the key, that section reports the wrong indentation with throw_above().
 class UnknownKey : public ConfigError {
  public:
   UnknownKey(const Config& at, const std::string& name, const std::string& hint, const std::vector<std::string>& known)
@@ -44,7 +44,7 @@ bool has_key(const std::vector<Key>& keys, const std::string& name) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
 }
 
-// Whether a section, or an entry of a list or of named sections, has the key.
+// Whether the section that the schema describes, or a section in its list, has the key.
 bool takes(const ValueSchema& schema, const std::string& name) {
   if (schema.kind == ValueSchema::Kind::section) return has_key(schema.keys(), name);
   if (schema.kind == ValueSchema::Kind::choice) {
@@ -63,7 +63,7 @@ std::string place_below(const Key& key) {
 
 std::string belongs_below(const std::string& section) { return "; it belongs below " + section + ": indent it."; }
 
-// `{density: 400,5}`: the digits behind a comma are a key without a value.
+// Detects a decimal comma as in `{density: 400,5}`: the digits after the comma parse as a key without a value.
 std::string decimal_comma(const std::string& name, const Config& section, const std::string& before) {
   const bool is_digits = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
   if (!is_digits || before.empty() || !section.at(name).is_null() || !section.at(before).is_scalar()) return "";
@@ -72,8 +72,8 @@ std::string decimal_comma(const std::string& name, const Config& section, const 
   return "; is it meant as '" + before + ": " + text + "." + name + "'? A comma separates keys; decimals have a point.";
 }
 
-// "; it belongs below 'mesh': indent it.", or else a name that is near. Where the key before it is empty, that is its
-// section.
+// A hint for an unknown key: "; it belongs below 'mesh': indent it.", or a similar name. The preferred section is the
+// key before it, if that has no value.
 std::string hint_for(const std::string& name, const Config& section, const std::string& before,
                      const std::vector<Key>& keys, const std::vector<std::string>& known) {
   constexpr std::size_t kMostHolders = 3;
@@ -103,7 +103,8 @@ void refuse_unknown_keys(const Config& section, const std::vector<Key>& keys, co
 void rename_keys(const Config& section, const std::map<std::string, std::string>& former_names) {
   for (const auto& [former, name] : former_names) {
     if (!section.has(former)) continue;
-    if (section.has(name)) section.at(former).fail("is now called '" + name + "', which is given as well");
+    if (section.has(name))
+      section.at(former).fail("is now called '" + name + "', which is also given; remove this key");
     section.at(former).warn("is now called '" + name + "'");
     section.rename(former, name);
   }
@@ -112,11 +113,11 @@ void rename_keys(const Config& section, const std::map<std::string, std::string>
 void refuse_meaningless(const Config& section, const std::string& name, const std::string& with_key,
                         const std::string& with_word) {
   if (!is_given(section, name)) return;
-  section.at(name).fail("has a meaning only with " + with_key + ": " + with_word + ", found " + with_key + ": " +
+  section.at(name).fail("applies only with " + with_key + ": " + with_word + ", found " + with_key + ": " +
                         section.at(with_key).text() + "; remove it (--set " + name + "=null)");
 }
 
-// `integrator: {rtol: 1e-5}` keeps the type of the fallback "{type: cvode_bdf}".
+// Adds the type of the fallback "{type: cvode_bdf}" to `integrator: {rtol: 1e-5}`.
 void complete_type(const Config& given, const std::string& fallback) {
   const Config usual = Config::from_text(fallback);
   if (given.is_map() && usual.has("type") && !given.has("type")) given.fill_text("type", usual.at("type").text());
@@ -141,9 +142,8 @@ void Keys::add(std::string_view name, std::string_view sentence, const Rule& rul
 
 Config Keys::read_fields(const Config& given, void* target, const std::vector<std::string>& also) const {
   if (!given.is_map())
-    given.fail("expected a section of keys (" + join(names_of(keys_)) + "), found " + given.shown() +
-                   (given.is_scalar() ? missing_space(given.text()) : ""),
-               InputFault::form);
+    given.fail_expected("a section of keys (" + join(names_of(keys_)) + ")",
+                        given.is_scalar() ? missing_space(given.text()) : "");
   const Config section = given.resolving();
   rename_keys(section, former_names_);
   refuse_unknown_keys(section, keys_, also);

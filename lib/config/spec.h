@@ -1,5 +1,5 @@
-// One declaration per key of the input: from it come the reader, its checks, the defaults of the
-// resolved scene and the text of `orthodyn list`.
+// Declares the keys of a section. This declaration gives the reader, its checks, the defaults of the resolved scene and
+// the text of `orthodyn list`.
 //
 //   struct Gravity { Vec3 acceleration{0, 0, -9.81}; static const Spec<Gravity>& spec(); };
 //   const Spec<Gravity>& Gravity::spec() {
@@ -8,7 +8,7 @@
 //     return s;
 //   }
 //
-// The default of a key is what a default-constructed T holds: it stands in one place.
+// The default of a key is the member's value in a default-constructed T.
 #pragma once
 
 #include <concepts>
@@ -21,23 +21,22 @@
 
 #include "lib/config/config.h"
 #include "lib/config/values.h"
-#include "lib/core/spelling.h"
 
 namespace orthodyn {
 
-// Where a part of the input stands, for errors that show only later (an empty selection, a surface that the mesh does
-// not have). A struct with a member `SourceLocation origin` gets it from its Spec.
+// The place of a section in the input, for errors found after reading (an empty selection, a surface that the mesh does
+// not have). Spec sets it in structs with a member `SourceLocation origin`.
 struct SourceLocation {
   std::string where;
   [[noreturn]] void fail(const std::string& message) const { throw ConfigError(where, message); }
 };
 
-// What a Spec does with the type of a member.
+// The type-erased operations of Value<V>.
 struct ValueType {
   ValueSchema (*schema)();
   void (*read)(const Config& config, const Rule& rule, void* target);
-  std::string (*yaml)(const void* value);  // "" where the value means "absent"
-  bool section;                            // has keys of its own, with their defaults
+  std::string (*yaml)(const void* value);  // "" means "absent"
+  bool section;                            // V has keys of its own
 };
 
 template <class V>
@@ -46,12 +45,9 @@ inline constexpr ValueType kValueType{
     [](const Config& config, const Rule& rule, void* target) {
       *static_cast<V*>(target) = Value<V>::read(config, rule);
     },
-    [](const void* value) { return std::string(Value<V>::yaml(*static_cast<const V*>(value))); }, requires {V::spec();
-}  // namespace orthodyn
-}
-;
+    [](const void* value) { return std::string(Value<V>::yaml(*static_cast<const V*>(value))); }, HasSpec<V>};
 
-// The part of a Spec that knows no types: few instructions for each key, wherever keys are declared.
+// The part of Spec that does not depend on T. It is compiled once, so that declaring a key takes few instructions.
 class Keys {
  public:
   Keys();
@@ -65,14 +61,14 @@ class Keys {
   using Member = std::function<void*(void* target)>;
   struct Field {
     Key doc;
-    std::string fallback, with_key, with_word;  // the views of its Rule
+    std::string fallback, with_key, with_word;  // own copies, because a Rule holds views
     const ValueType* type;
     Member member;
   };
 
   void add(std::string_view name, std::string_view sentence, const Rule& rule, const ValueType& type,
            const void* default_value, Member member);
-  // Returns the section with its defaults, as far as it is a resolving() one.
+  // Reads the fields of `target`; returns the section completed by defaults. `also`: further keys that are allowed.
   Config read_fields(const Config& given, void* target, const std::vector<std::string>& also) const;
 
   std::map<std::string, std::string> former_names_;
@@ -85,7 +81,7 @@ class Keys {
 template <class T>
 class Spec : public Keys {
  public:
-  // The member may be one of T's base class.
+  // Declares a key; the member may belong to a base class of T.
   template <class V, class Owner>
   requires std::derived_from<T, Owner> Spec& key(std::string_view name, V Owner::*member, std::string_view sentence,
                                                  const Rule& rule = {}) {
@@ -94,19 +90,19 @@ class Spec : public Keys {
     return *this;
   }
 
-  // `former` is read as `name`, with a warning.
+  // Accepts `former` for `name`, with a warning.
   Spec& rename(std::string_view former, std::string_view name) {
     former_names_.emplace(former, name);
     return *this;
   }
 
-  // A condition that joins several keys; it calls config.fail() if it does not hold.
+  // Adds a condition on several keys, which calls config.fail() if it is violated.
   Spec& check(std::function<void(const T&, const Config&)> condition) {
     checks_.push_back(std::move(condition));
     return *this;
   }
 
-  // Reads a section. `also` names keys that somebody else reads ("type").
+  // Reads a section. `also`: keys that the caller reads itself ("type").
   void read_into(const Config& given, T& target, const std::vector<std::string>& also = {}) const {
     const Config section = read_fields(given, &target, also);
     if constexpr (requires { target.origin.where; }) target.origin.where = section.where();
@@ -119,7 +115,7 @@ class Spec : public Keys {
     return target;
   }
 
-  // A section without keys.
+  // A T with all defaults.
   T by_default() const { return read(Config::from_text("{}", "defaults")); }
 
  private:

@@ -1,11 +1,9 @@
-// What may stand at a key, told to other programs: from schema come the words of `orthodyn list`, the
-// JSON Schema of the input and the reference page.
+// A description of the values that a key accepts, for `orthodyn list`, the JSON Schema and the reference page.
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,10 +20,10 @@ struct Range {
 
 struct Key;
 
-// One of the things that a section with `type` can be.
+// One of the types that the key `type` of a section selects.
 struct Alternative {
   std::string sentence;
-  std::vector<Key> keys;                                        // beside `type`
+  std::vector<Key> keys;                                        // without `type`
   std::vector<std::pair<std::string, std::string>> facts = {};  // ("source", "Newmark 1959"), for lists
 };
 
@@ -33,13 +31,13 @@ struct ValueSchema {
   enum class Kind { number, integer, boolean, text, file, word, list, named, section, choice, either, anything };
 
   Kind kind = Kind::anything;
-  std::string words = {};                       // for people, where the kind does not say it all: "formula of x, y, z"
-  std::vector<std::string> names = {};          // word: the allowed ones
-  bool behind_name = false;                     // word: each of them behind any name and a dot
-  std::vector<ValueSchema> items = {};          // list and named: of each; either: the possible ones
-  std::size_t count = 0;                        // list: 0 for any
-  std::string title = {};                       // section and choice: the C++ type's name, which tells them apart
-  std::function<std::vector<Key>()> keys = {};  // section
+  std::string words = {};               // description for people where `kind` says too little: "formula of x, y, z"
+  std::vector<std::string> names = {};  // word: allowed words
+  bool behind_name = false;             // word: also allowed as "NAME.word" with any NAME
+  std::vector<ValueSchema> items = {};  // list and named: schema of each item; either: the alternatives
+  std::size_t count = 0;                // list: required length, 0 for any
+  std::string title = {};               // section and choice: name of the C++ type, as an identifier
+  std::function<std::vector<Key>()> keys = {};                            // section
   std::function<std::map<std::string, Alternative>()> alternatives = {};  // choice
 };
 
@@ -48,7 +46,7 @@ struct Key {
   std::string name;
   ValueSchema schema;
   std::string unit;  // SI, "" for none
-  Range range;       // of a number, and of each number of a list
+  Range range;       // allowed values of a number, or of each number in a list
   std::string fallback, sentence;
   bool required = false;
 };

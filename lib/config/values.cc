@@ -16,7 +16,7 @@ namespace orthodyn {
 
 namespace {
 
-// Degrees and radians are both usual; neither is meant by all.
+// Throws unless the number is 0: degrees and radians are both common, so that a number alone is ambiguous.
 double angle_without_unit(const Config& config) {
   const double x = config.number();
   if (x == 0) return x;
@@ -45,7 +45,7 @@ struct WithUnit {
   double number, si;
 };
 
-// Those entries of a list that have a unit, without zeros.
+// The nonzero entries of a list that have a unit.
 std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<double>& si) {
   std::vector<WithUnit> out;
   for (std::size_t i = 0; i < si.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<d
   return out;
 }
 
-// The unit that is most likely missing at x, beside a neighbour: its own, or MPa where 10800 is next to 0.84 GPa.
+// The unit that x probably lacks: the neighbour's, or another one, such as MPa for 10800 next to 0.84 GPa.
 std::string likely_unit(double x, const WithUnit& neighbour) {
   constexpr double kFar = 300, kNear = 30;
   constexpr std::array<std::pair<const char*, double>, 3> kOthers{{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
@@ -67,8 +67,8 @@ std::string likely_unit(double x, const WithUnit& neighbour) {
   return neighbour.unit;
 }
 
-// [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI value of every entry that has one, and
-// nearer to the number in front of that unit.
+// Refuses lists such as [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI values of all entries
+// with a unit, and nearer to their numbers.
 void refuse_missing_units(const Config& list, const std::vector<double>& si, std::string_view unit) {
   constexpr double kUnlike = 60;
   const auto others = entries_with_units(list, si);
@@ -87,11 +87,11 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
   }
 }
 
-// Products and squares of quantities must be numbers as well.
+// Refuses extreme values, so that products and squares of quantities stay finite.
 void require_computable(const Config& config, double x, std::string_view unit) {
   constexpr double kSmallest = 1e-100, kLargest = 1e100;
   if (x == 0 || (std::abs(x) >= kSmallest && std::abs(x) <= kLargest)) return;
-  config.fail(fmt::format("{} {} cannot be computed with: it must be 0, or between {:.0e} and {:.0e} in size",
+  config.fail(fmt::format("{} {} is out of range: its magnitude must be 0, or between {:.0e} and {:.0e}",
                           number_text(x), unit, kSmallest, kLargest));
 }
 
@@ -116,8 +116,7 @@ double read_number(const Config& config, const Rule& rule) {
 std::string number_text(double x) { return fmt::format("{}", x); }
 
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count) {
-  if (!config.is_sequence() || config.size() != count)
-    config.fail(fmt::format("expected a list of {} numbers, found {}", count, config.shown()), InputFault::form);
+  if (!config.is_sequence() || config.size() != count) config.fail_expected(fmt::format("a list of {} numbers", count));
   std::vector<double> out;
   for (std::size_t i = 0; i < count; ++i) out.push_back(read_number(config.at(i), rule));
   if (!rule.unit.empty()) refuse_missing_units(config, out, rule.unit);
@@ -136,22 +135,6 @@ long read_integer(const Config& config, const Rule& rule, long low, long high) {
   return i;
 }
 
-ValueSchema Value<double>::schema() { return {.kind = ValueSchema::Kind::number}; }
-double Value<double>::read(const Config& c, const Rule& r) { return read_number(c, r); }
-std::string Value<double>::yaml(double x) { return number_text(x); }
-
-ValueSchema Value<bool>::schema() { return {.kind = ValueSchema::Kind::boolean}; }
-bool Value<bool>::read(const Config& c, const Rule&) { return c.boolean(); }
-std::string Value<bool>::yaml(bool x) { return x ? "true" : "false"; }
-
-ValueSchema Value<std::string>::schema() { return {.kind = ValueSchema::Kind::text}; }
-std::string Value<std::string>::read(const Config& c, const Rule&) { return c.text(); }
-std::string Value<std::string>::yaml(const std::string& x) { return x; }
-
-ValueSchema Value<FilePath>::schema() { return {.kind = ValueSchema::Kind::file}; }
-FilePath Value<FilePath>::read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
-std::string Value<FilePath>::yaml(const FilePath& x) { return x.path; }
-
 ValueSchema Value<Vec3>::schema() { return list_schema(Value<double>::schema(), 3, "[x, y, z]"); }
 Vec3 Value<Vec3>::read(const Config& c, const Rule& r) { return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data()); }
 std::string Value<Vec3>::yaml(const Vec3& x) {
@@ -160,8 +143,7 @@ std::string Value<Vec3>::yaml(const Vec3& x) {
 
 ValueSchema Value<Mat3>::schema() { return list_schema(Value<Vec3>::schema(), 3, "[[row], [row], [row]]"); }
 Mat3 Value<Mat3>::read(const Config& c, const Rule& r) {
-  if (!c.is_sequence() || c.size() != 3)
-    c.fail("expected three rows of three numbers, found " + c.shown(), InputFault::form);
+  if (!c.is_sequence() || c.size() != 3) c.fail_expected("three rows of three numbers");
   Mat3 m;
   for (int i = 0; i < 3; ++i) m.row(i) = Value<Vec3>::read(c.at(static_cast<std::size_t>(i)), r);
   return m;

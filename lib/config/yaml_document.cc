@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/config/yaml_slips.h"
+#include "lib/config/yaml_typos.h"
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
 #include "lib/core/utf8.h"
@@ -23,15 +23,15 @@ namespace {
 constexpr std::size_t kMostBytes = 64'000'000;
 constexpr int kMostDepth = 100;
 
-// A first pass that keeps nothing: one document, of bounded depth. Without it yaml-cpp reads documents without end
-// where something follows a flow collection ("{a: 1},").
+// A first pass that requires a single document of bounded depth. yaml-cpp alone would read endless documents if text
+// follows a flow collection ("{a: 1},").
 class BoundsCheck : public YAML::EventHandler {
  public:
   BoundsCheck(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ == 1) return;
-    refuse_slip_near(text_, file_, mark);
+    refuse_typo_near(text_, file_, mark);
     throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep only what is before this place");
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
@@ -59,7 +59,7 @@ class BoundsCheck : public YAML::EventHandler {
   int documents_ = 0, depth_ = 0;
 };
 
-// Lines end with \n; \r\n and a \r alone, which yaml-cpp takes for a blank, become that.
+// Replaces \r\n and \r by \n. yaml-cpp reads a single \r as a blank.
 std::string with_plain_line_ends(const std::string& text) {
   if (text.find('\r') == std::string::npos) return text;
   std::string out;
@@ -79,7 +79,7 @@ void require_bounds(const std::string& text, const std::string& file) {
   if (bounds.documents() == 0) throw ConfigError(file + ":1:1", "the file is empty");
 }
 
-// yaml-cpp keeps duplicate keys and ignores merge keys in silence; an alias may contain itself.
+// Refuses what yaml-cpp accepts silently: duplicate keys, merge keys, aliases that contain themselves.
 class StructureCheck {
  public:
   explicit StructureCheck(const std::string& file) : file_(file) {}
@@ -109,11 +109,10 @@ class StructureCheck {
     }
   }
 
-  // What is in comments is nobody's concern.
   void require_utf8(const YAML::Node& node) const {
     const std::size_t at = find_invalid_utf8(node.Scalar());
     if (at != std::string::npos)
-      fail(node, fmt::format("the byte 0x{:02X} in it is not UTF-8; save the file in this encoding",
+      fail(node, fmt::format("the byte 0x{:02X} is not UTF-8; save the file in UTF-8",
                              static_cast<unsigned char>(node.Scalar()[at])));
   }
 
@@ -125,18 +124,19 @@ class StructureCheck {
   long visited_ = 0;
 };
 
-// Joins other files into sections that say `include`.
+// Merges other files into sections with the key `include`.
 class Inclusion {
  public:
   explicit Inclusion(const YAML::Node& root) : root_(root) {}
 
-  // Changes the node; returns where what was joined came from.
+  // Changes the node; returns the files of the values that were added.
   Origins resolve(YAML::Node node, const std::string& path, const std::string& file) {
     Origins origins;
     for (const auto& [key, child] : children(node)) origins.merge(resolve(child, child_path(path, key), file));
     if (!node.IsMap() || !node[kKey].IsDefined()) return origins;
     const YAML::Node named = node[kKey];
-    if (occurrences(root_, node) > 1) fail(named, file, "stands in several places by an alias; write the section out");
+    if (occurrences(root_, node) > 1)
+      fail(named, file, "the section is used in several places through an alias; write it out");
     node.remove(kKey);
     if (named.IsScalar()) join(node, path, file, named, origins);
     else if (!named.IsSequence()) fail(named, file, "expected a file, or a list of files");
@@ -171,7 +171,7 @@ class Inclusion {
     if (std::find(open_.begin(), open_.end(), identity) != open_.end()) fail(named, file, other + " includes itself");
     open_.push_back(identity);
     const YAML::Node content = parse_yaml(read_yaml_file(other), other);
-    if (!content.IsMap()) fail(named, file, other + " holds no section of keys");
+    if (!content.IsMap()) fail(named, file, other + " is not a section of keys");
     const YAML::Node outer = root_;
     root_.reset(content);
     const Origins theirs = resolve(content, path, other);
@@ -232,7 +232,7 @@ YAML::Node parse_yaml(const std::string& given, const std::string& file) {
     StructureCheck(file).visit(root, 0);
     return root;
   } catch (const YAML::Exception& e) {
-    refuse_slip_near(text, file, e.mark);
+    refuse_typo_near(text, file, e.mark);
     refuse_open_bracket(text, file, e.mark);
     throw ConfigError(mark_text(file, e.mark), "not YAML: " + e.msg);
   }

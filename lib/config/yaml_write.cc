@@ -1,11 +1,11 @@
-#include "lib/config/yaml_write.h"
-
+// Writing into a YAML document.
 #include <fmt/format.h>
 
 #include <sstream>
 #include <variant>
 #include <vector>
 
+#include "lib/config/yaml_document.h"
 #include "lib/core/parse_number.h"
 
 namespace orthodyn {
@@ -19,12 +19,12 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// Of a list or a section, for writing: a missing key is made.
+// Returns an entry of a list or a section; creates a missing key.
 YAML::Node entry(YAML::Node& parent, const std::string& step, const std::string& path, const std::string& place) {
   if (parent.IsMap() || parent.IsNull()) return parent[step];
   if (!parent.IsSequence())
-    throw ConfigError(place, fmt::format("there is nothing below '{}', which is a value",
-                                         path.substr(0, path.size() - step.size() - 1)));
+    throw ConfigError(place,
+                      fmt::format("'{}' is a value and has no keys", path.substr(0, path.size() - step.size() - 1)));
   std::size_t index = 0;
   if (!parse_number(step, index) || index >= parent.size())
     throw ConfigError(place, fmt::format("'{}' is not an index below {}", step, parent.size()));

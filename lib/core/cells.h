@@ -1,4 +1,4 @@
-// Which nodes the cells of a mesh have: all cells of one kind, with equally many nodes.
+// The connectivity of a mesh whose cells all have the same number of nodes.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ class Cells {
  public:
   Cells() = default;
 
-  // `nodes`: the node indices of one cell after the other. Precondition: their number is a multiple of nodes_per_cell.
+  // `nodes`: node indices, cell by cell. Precondition: their number is a multiple of nodes_per_cell.
   Cells(int nodes_per_cell, std::vector<int> nodes)
       : nodes_per_cell_(static_cast<std::size_t>(nodes_per_cell)), nodes_(std::move(nodes)) {}
 
@@ -26,12 +26,12 @@ class Cells {
   std::size_t size() const { return nodes_.size() / nodes_per_cell_; }
   int nodes_per_cell() const { return static_cast<int>(nodes_per_cell_); }
 
-  // The nodes of one cell; valid as long as this object is.
+  // The nodes of one cell; valid as long as this object.
   std::span<const int> operator[](std::size_t cell) const {
     return {nodes_.data() + cell * nodes_per_cell_, nodes_per_cell_};
   }
 
-  // Those of all cells, one after the other.
+  // The nodes of all cells, cell by cell.
   const std::vector<int>& nodes() const { return nodes_; }
 
  private:

@@ -1,17 +1,18 @@
 // The three kinds of failure: of the input, of a computation, of one state.
 #pragma once
 
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace orthodyn {
 
-// What is wrong with the input: its form (an unknown key, a text where a number is expected), which no other value of a
-// varied key mends, or a value.
+// The kind of an input error. form: the text is malformed, such as an unknown key or a word in place of a number.
+// value: a well-formed value that is not allowed; a study may skip it.
 enum class InputFault { value, form };
 
-// The user's input is at fault. what() is "place: message", or the message alone where there is no place, as for
-// options of the command line. The command line exits with 2 and has written nothing.
+// An error in the user's input. what() is "place: message", or only the message if there is no place, as for options of
+// the command line. The program then exits with status 2 and has written nothing.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::string& message) : ConfigError("", message) {}
@@ -30,7 +31,7 @@ class ConfigError : public std::runtime_error {
   InputFault fault_;
 };
 
-// Why a computation could not go on, in one word for a table.
+// Why a computation stopped, for tables.
 enum class Reason {
   other,
   diverged,
@@ -45,23 +46,14 @@ enum class Reason {
 };
 
 inline const char* reason_name(Reason reason) {
-  switch (reason) {
-    case Reason::other: break;
-    case Reason::diverged: return "diverged";
-    case Reason::step_too_small: return "step too small";
-    case Reason::too_many_steps: return "too many steps";
-    case Reason::newton: return "newton";
-    case Reason::critical_point: return "critical point";
-    case Reason::error_test: return "error test";
-    case Reason::force: return "force";
-    case Reason::out_of_memory: return "out of memory";
-    case Reason::disk: return "disk";
-  }
-  return "other";
+  constexpr const char* kNames[] = {"other",          "diverged",   "step too small", "too many steps", "newton",
+                                    "critical point", "error test", "force",          "out of memory",  "disk"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Reason::disk) + 1);
+  return kNames[static_cast<int>(reason)];
 }
 
-// The computation could not go on: what() says how far it came, why, and what to try.
-// What was computed so far is kept; the command line exits with 3.
+// A computation that cannot continue: what() gives the point reached, the cause and a remedy. Results up to that point
+// are kept; the program exits with status 3.
 class RunError : public std::runtime_error {
  public:
   explicit RunError(const std::string& message, Reason reason = Reason::other)
@@ -72,8 +64,8 @@ class RunError : public std::runtime_error {
   Reason reason_;
 };
 
-// The model cannot be evaluated at this state, but may be at one closer to the last good one.
-// Integrators answer with a smaller step; it never reaches the user as such.
+// The model cannot be evaluated at this state, but perhaps at one closer to the last good state. Integrators then
+// reduce the step.
 class RecoverableError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

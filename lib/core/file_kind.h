@@ -1,5 +1,5 @@
-// What stands under a name. A name that the system cannot look up (too long, in a folder that may not be entered, links
-// in a circle) has nothing there: whoever opens it is told why.
+// Whether a path is a file, a folder, or either. All functions return false if the system cannot look the path up (too
+// long, no permission, circular links); opening the file then reports the cause.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a result depends on, as a short text: equal inputs, equal fingerprints.
+// A hash of the inputs of a result: equal inputs have equal fingerprints.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,16 @@
 
 namespace orthodyn {
 
-// FNV-1a, 64 bits: enough to tell a few thousand inputs apart and to notice every damaged byte; no
-// defence against malice.
+// FNV-1a with 64 bits. It separates a few thousand inputs and detects any single changed byte. Not cryptographic.
 class Fingerprint {
  public:
   Fingerprint& add(const std::string& text);
-  // Goes on with a text that comes in pieces, wherever it is cut.
+  // Adds a piece of a longer text; the result does not depend on where the text is cut.
   Fingerprint& add_piece(std::string_view piece);
-  // The file's content. Throws RunError if it cannot be read.
+  // Adds the content of a file. Throws RunError if it cannot be read.
   Fingerprint& add_file(const std::filesystem::path& path);
   std::string text() const;  // 16 hexadecimal digits
-  // 53 bits of it, which a double holds. A single byte that differs changes these as well.
+  // The lowest 53 bits, which a double represents exactly. They also detect any single changed byte.
   double number() const { return static_cast<double>(hash_ & ((std::uint64_t{1} << 53) - 1)); }
 
  private:

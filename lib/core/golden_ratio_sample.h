@@ -1,4 +1,4 @@
-// Shares of a span that fill it evenly and fall on no beat: evenly spaced ones may all be zeros of an oscillation.
+// A low-discrepancy sequence for sampling times, because evenly spaced samples may all fall on zeros of an oscillation.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace orthodyn {
 
-// Number k = 0, 1, ... of a sequence in [0, 1): the fractions of k times the golden ratio.
+// Element k = 0, 1, ... of the sequence: the fractional part of k times the golden ratio.
 inline double golden_ratio_sample(int k) {
   const double turns = k * std::numbers::phi;
   return turns - std::floor(turns);

@@ -1,26 +1,33 @@
-// The memory that a process may use, in bytes.
+// The memory that this process may use, in bytes.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 
 namespace orthodyn {
 
-// What the machine has, or less where a limit is set: of the control group (containers, batch systems), or by ulimit -v
-// and ulimit -m, which the system itself does not enforce.
+// The smallest of the machine's memory, the limits of the control groups (containers, batch systems), ulimit -v and
+// ulimit -m, which Linux itself does not enforce.
 double memory_limit();
 
-// What this process may still take now: of what the machine has free, swap included, and of the same limits.
+// Memory that this process can still allocate: what the machine has free, including swap, but no more than what is left
+// within the limits of the control groups and ulimit -v.
 double memory_left();
 
-// The least of the control groups that a process is in, and of those above them; infinite where none is limited. What
-// is left is so for all processes of a group together.
+// Throws RunError (out_of_memory) with both numbers if `bytes` (of at least 64 MB) exceed memory_left(): the machine
+// would swap, or the system would kill the process. `what`: "the Cholesky factor"; `remedy`: "use a coarser mesh".
+void require_memory_for_factor(std::size_t bytes, const std::string& what, const std::string& remedy);
+
+// Memory limit, and memory left below it. Each is the smallest value over a process's control groups and their parents;
+// infinite if no group has a limit. All processes of a group share what is left.
 struct GroupMemory {
   double limit, left;
 };
-// `groups`: a process's /proc/.../cgroup; `folder`: where the groups' files are, /sys/fs/cgroup. Versions 1 and 2.
+// Reads versions 1 and 2. `groups`: /proc/.../cgroup of the process; `folder`: /sys/fs/cgroup.
 GroupMemory memory_of_groups(const std::filesystem::path& groups, const std::filesystem::path& folder);
 
-// Whether addresses are limited (ulimit -v), and not only what is resident.
-bool addresses_are_limited();
+// True if the address space is limited (ulimit -v).
+bool address_space_is_limited();
 
 }  // namespace orthodyn

@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// Its threads are made with the first loop. More of them than the machine has need the limit raised.
+// Threads start with the first loop. `limit` allows more threads than the machine has.
 struct LoopArena {
   explicit LoopArena(int n)
       : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)), tasks(n) {}
@@ -20,7 +20,7 @@ struct LoopArena {
 
 namespace {
 
-// Which of many exceptions is thrown must not depend on the order in which threads get there.
+// Keeps the exception of the smallest index, whatever the order of the threads.
 class FirstError {
  public:
   void keep(int index, std::exception_ptr error) {

@@ -1,5 +1,5 @@
-// Loops on several threads of this process (oneTBB). Results must not depend on how many there are: what bodies share
-// they only read.
+// Parallel loops over the threads of this process (oneTBB). Loop bodies only read shared data, so that results do not
+// depend on the number of threads.
 #pragma once
 
 #include <functional>
@@ -7,13 +7,13 @@
 
 namespace orthodyn {
 
-// As many as the machine gives this process.
+// The number of threads that the machine offers this process.
 int available_threads();
 
 struct LoopArena;
 
-// While it lives, the loops that this thread begins run on n threads; other threads have their own numbers. Objects are
-// nested: the end of one brings back the number before it. Not to be made or ended within a loop.
+// While an object exists, loops started by this thread run on n threads; other threads have their own setting. Objects
+// may be nested: the destructor restores the previous number. Must not be created or destroyed within a loop.
 class LoopThreads {
  public:
   // Precondition: n >= 1.
@@ -27,11 +27,11 @@ class LoopThreads {
   LoopArena* before_;
 };
 
-// Of the loops that this thread begins: 1 without an object of LoopThreads.
+// The number of threads of loops started by this thread; 1 if it has no LoopThreads.
 int loop_threads();
 
-// body(i) for all i in [0, n): on this thread in order where there is one, else in any order at the same time. Returns
-// when all are done; throws what the first of them threw, in the order of i.
+// Calls body(i) for all i in [0, n): in order with one thread, otherwise concurrently in any order. Returns when all
+// calls have ended; rethrows the exception of the smallest i.
 void parallel_for(int n, const std::function<void(int)>& body);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// A whole word as a number.
+// Parses a whole word as a number.
 #pragma once
 
 #include <charconv>
@@ -7,7 +7,7 @@
 
 namespace orthodyn {
 
-// False if the word is anything else, or too large. from_chars knows no plus sign, but some writers do.
+// False if the word is not a number or is out of range. A leading plus sign, which from_chars refuses, is allowed.
 template <class Number>
 bool parse_number(std::string_view word, Number& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

@@ -1,4 +1,4 @@
-// The sparsity pattern that the matrices of a model share; values are kept apart from it.
+// The sparsity pattern shared by the matrices of a model; values are stored separately.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,26 @@
 
 namespace orthodyn {
 
-// How the matrices of several ranks, each on a pattern of its own, make up one: it is their sum. Every point has three
-// rows in it, those of a coordinate that is no unknown are of the identity.
+// Maps a rank's matrix to the global matrix, which is the sum of the matrices of all ranks. Each rank's matrix has its
+// own pattern. The global matrix has three rows per point; the rows of constrained coordinates are those of the
+// identity.
 struct PatternShare {
   const Ranks* ranks;
-  int owned;                      // the first so many unknowns are this rank's, and vectors have these alone
-  int owned_points;               // the points that they are coordinates of
-  std::int64_t first_point;       // the number of the first of these among all
-  std::vector<std::int64_t> row;  // of each unknown its row in the whole
-  std::int64_t unknowns;          // of the whole
+  int owned;                      // unknowns that this rank owns; they come first, and vectors hold only these
+  int owned_points;               // points that the owned unknowns belong to
+  std::int64_t first_point;       // global number of the first owned point
+  std::vector<std::int64_t> row;  // global row of each unknown
+  std::int64_t unknowns;          // number of unknowns of all ranks
 };
 
-// Column-compressed, rows ascending in each column, the diagonal always present.
+// Compressed columns, with ascending rows in each column and every diagonal entry stored.
 struct Pattern {
   int n = 0;
   bool symmetric = true;          // only the lower triangle is stored
-  std::vector<int> column_start;  // n + 1
+  std::vector<int> column_start;  // start of each column in `row`, and the end of the last; n + 1 entries
   std::vector<int> row;
-  // Of unknowns that are coordinates of points, ascending: 3 point + coordinate. Empty for others.
-  std::vector<int> coordinate;
-  // Where several ranks have parts of the matrix; null where it is whole.
-  std::shared_ptr<const PatternShare> share = {};
+  std::vector<int> coordinate;  // 3 point + component of each unknown, ascending; empty if unknowns have none
+  std::shared_ptr<const PatternShare> share = {};  // null if the matrix is not distributed over ranks
 
   int non_zeros() const { return static_cast<int>(row.size()); }
 

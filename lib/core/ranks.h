@@ -1,7 +1,7 @@
-// The processes that compute one model together, each of them a part of it: MPI's ranks, as far as a model needs them.
+// The operations on MPI ranks that a model distributed over them needs.
 //
-// All but rank() and size() are collective: every rank calls them, in the same order. What they give is the same on all
-// ranks, to the bit.
+// All functions but rank(), size() and abort() are collective: all ranks call them in the same order. Sums, maxima and
+// broadcast values have the same bits on all ranks.
 #pragma once
 
 #include <memory>
@@ -11,22 +11,22 @@
 
 namespace orthodyn {
 
-// Nodes that several ranks have: one of them owns each, the others have copies of it.
+// Exchange for nodes that several ranks hold: one rank owns each node, the others hold copies.
 class NodeExchange {
  public:
   virtual ~NodeExchange() = default;
-  // Three numbers for each node of this rank, those that it owns first.
+  // `values`: three numbers for each node of this rank, owned nodes first.
   virtual void copy_from_owners(double* values) const = 0;
-  // Adds the copies' numbers to the owner's; the copies' become zero.
+  // Adds the values of the copies to those of the owner and sets the copies to zero.
   virtual void add_to_owners(double* values) const = 0;
 };
 
-// A node of another rank: which one, and its place among those that this one owns.
+// A node owned by another rank: the owner's rank, and the index among the owner's nodes.
 using RemoteNode = std::pair<int, int>;
 
-// Which cells are neighbours of which, as rows of a sparse matrix.
+// The adjacency graph of cells, as the rows of a sparse matrix.
 struct CellGraph {
-  std::vector<int> start;       // of each cell, and the end
+  std::vector<int> start;       // start of each cell's row, and the end of the last
   std::vector<int> neighbours;  // ascending in each row
 };
 
@@ -43,33 +43,33 @@ class Ranks {
   double max(double value) const { return max(std::span(&value, 1)), value; }
   bool any(bool here) const { return max(here ? 1.0 : 0.0) > 0; }
 
-  // The sum over the ranks before this one.
+  // Sum of `value` over the ranks before this one (exclusive scan).
   virtual long sum_before(long value) const = 0;
 
-  // What the first rank has.
+  // Replaces the values by those of the first rank.
   virtual void broadcast(std::span<double> values) const = 0;
-  bool as_first_says(bool here) const {
+  bool broadcast_flag(bool here) const {
     double value = here ? 1 : 0;
     broadcast(std::span(&value, 1));
     return value != 0;
   }
 
-  // On the first rank the values of all, one rank after the other; nothing on others. Fewer than 2^31.
+  // Returns the values of all ranks in the order of the ranks (fewer than 2^31 values) on the first rank, and an empty
+  // vector on the others.
   virtual std::vector<double> gather(std::span<const double> values) const = 0;
-  // Divides the first rank's values among all, in their order: each gets as many as it has room for.
+  // Distributes the first rank's values over the ranks in their order; each rank receives here.size() values.
   virtual void scatter(std::span<const double> of_all, std::span<double> here) const = 0;
 
-  // Of each cell the part it is in, of `size()` parts of about as many cells each with few neighbours in others; some
-  // are empty where cells are few. The same graph gives the same parts.
+  // Divides the cells into size() parts of similar size with few connections between parts, and returns the part of
+  // each cell. Parts may be empty if there are few cells. The same graph gives the same parts.
   virtual std::vector<int> partition(const CellGraph& graph) const = 0;
 
-  // `copies`: where the owner of each copy has it, in the order of the copies here.
+  // `owned`: number of nodes that this rank owns. `copies`: for each copy that it holds, the owner and the index there.
   virtual std::unique_ptr<NodeExchange> exchange(int owned, const std::vector<RemoteNode>& copies) const = 0;
 
-  // Waits for the others to come here as well, for so many seconds. False if they do not: they then are somewhere else,
-  // and nothing is left but abort().
-  virtual bool meet(double seconds) const = 0;
-  // Ends all ranks.
+  // A barrier with a time limit. False if some rank did not arrive in time; then only abort() may be called.
+  virtual bool barrier_within(double seconds) const = 0;
+  // Terminates all ranks.
   [[noreturn]] virtual void abort(int exit_code) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// How far two figures are apart by their ratio.
+// The factor between two numbers, regardless of which is larger.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace orthodyn {
 
-// The larger over the smaller of their magnitudes: at least 1. Neither is zero.
+// max(|a/b|, |b/a|) >= 1. Precondition: neither is zero.
 inline double ratio_distance(double a, double b) { return std::max(std::abs(a / b), std::abs(b / a)); }
 
 }  // namespace orthodyn

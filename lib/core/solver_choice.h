@@ -1,4 +1,4 @@
-// Which linear solver is wanted, and what it is told.
+// The choice of a linear solver and its options.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@ namespace orthodyn {
 
 struct SolverChoice {
   SolverChoice() = default;
-  SolverChoice(std::string wanted, std::string told = "") : type(std::move(wanted)), options(std::move(told)) {}
-  SolverChoice(const char* wanted) : type(wanted) {}
+  SolverChoice(std::string name, std::string arguments = "") : type(std::move(name)), options(std::move(arguments)) {}
+  SolverChoice(const char* name) : type(name) {}
   bool operator==(const SolverChoice&) const = default;
 
   std::string type = "auto";  // a name of solver_registry() (lib/linear/solver.h)
-  std::string options;        // as on a command line, of a solver that takes some
+  std::string options;        // as on a command line; only for solvers that take options
 };
 
-// As people read it: "petsc -pc_type gamg".
+// For messages: "petsc -pc_type gamg".
 inline std::string shown(const SolverChoice& choice) {
   return choice.options.empty() ? choice.type : choice.type + " " + choice.options;
 }

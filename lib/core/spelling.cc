@@ -12,8 +12,8 @@ namespace orthodyn {
 
 namespace {
 
-// The insertions, deletions, substitutions and swaps of neighbours that make one of the other (optimal string
-// alignment): g31 is one from g13, and two from nu31.
+// Number of insertions, deletions, substitutions and swaps of neighbouring letters that turn a into b (optimal string
+// alignment distance): 1 from g31 to g13, 2 from g31 to nu31.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before, above, row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0u);
@@ -29,7 +29,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Of names equally near the first; nothing if more than a third of the letters differ.
+// The first of the nearest names; none if more than a third of the letters (at least 2) differ.
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& known) {
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;

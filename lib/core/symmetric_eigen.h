@@ -1,7 +1,8 @@
-// Eigenvalues of dense symmetric matrices: Eigen's solvers (QR after tridiagonalisation, Golub & Van Loan, Matrix
-// Computations, 8.3), compiled once for N = 3, 6 and Eigen::Dynamic, since each use costs seconds of compilation.
-// Only the lower triangle is read; values ascend, in the unit of A (of A over B). Thread-safe.
-// Values and vectors are NaN where the iteration does not converge, as for entries that are not finite.
+// Eigenvalues of dense symmetric matrices by Eigen's solvers (QR after tridiagonalisation, Golub & Van Loan, Matrix
+// Computations, 8.3). They are compiled once for N = 3, 6 and Eigen::Dynamic, since each instantiation takes seconds to
+// compile. Only the lower triangle is read. Eigenvalues ascend and have the unit of A, or of A/B in the generalised
+// problem. Thread-safe. Values and vectors are NaN if the iteration does not converge, for example because an entry is
+// not finite.
 #pragma once
 
 #include "lib/core/types.h"
@@ -25,7 +26,7 @@ ColumnVector<N> symmetric_eigenvalues(const SquareMatrix<N>& A);
 template <int N>
 SymmetricEigenpairs<N> symmetric_eigenpairs(const SquareMatrix<N>& A);
 
-// Of A x = lambda B x with B positive definite; the vectors are orthonormal in the inner product of B.
+// Generalised problem A x = lambda B x, B positive definite; the vectors are B-orthonormal.
 SymmetricEigenpairs<Eigen::Dynamic> symmetric_eigenpairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 Vector symmetric_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 

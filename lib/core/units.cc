@@ -23,7 +23,7 @@ struct FreeUnit {
 struct FreeConverter {
   void operator()(cv_converter* converter) const { cv_free(converter); }
 };
-// The parser of UDUNITS-2 keeps state of its own: one thread at a time.
+// Guards the parser of UDUNITS-2, which has global state.
 std::recursive_mutex& udunits() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -32,32 +32,32 @@ std::recursive_mutex& udunits() {
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 
-constexpr std::array<std::pair<const char*, const char*>, 14> kDimensions{{{"m", "length"},
-                                                                           {"s", "time"},
-                                                                           {"kg", "mass"},
-                                                                           {"Pa", "stress or stiffness"},
-                                                                           {"kg/m^3", "density"},
-                                                                           {"m/s", "velocity"},
-                                                                           {"m/s^2", "acceleration"},
-                                                                           {"N", "force"},
-                                                                           {"rad", "angle"},
-                                                                           {"rad/s", "angular velocity"},
-                                                                           {"1/s", "rate"},
-                                                                           {"J", "energy"},
-                                                                           {"m^2", "area"},
-                                                                           {"m^3", "volume"}}};
+using Dimension = std::pair<const char*, const char*>;  // SI unit, word
+constexpr auto kDimensions = std::to_array<Dimension>({{"m", "length"},
+                                                       {"s", "time"},
+                                                       {"kg", "mass"},
+                                                       {"Pa", "stress or stiffness"},
+                                                       {"kg/m^3", "density"},
+                                                       {"m/s", "velocity"},
+                                                       {"m/s^2", "acceleration"},
+                                                       {"N", "force"},
+                                                       {"rad", "angle"},
+                                                       {"rad/s", "angular velocity"},
+                                                       {"1/s", "rate"},
+                                                       {"J", "energy"},
+                                                       {"m^2", "area"},
+                                                       {"m^3", "volume"}});
 
-// Read from its files when the first unit is met; lives as long as the program.
+// The unit system, read from the files of UDUNITS-2 at first use and never freed.
 ut_system* units() {
   static ut_system* const system = [] {
     ut_set_error_message_handler(ut_ignore);
     ut_system* read = ut_read_xml(nullptr);
     if (!read)
       throw std::runtime_error(
-          "the table of units of UDUNITS-2 cannot be read (Debian: libudunits2-data); give "
-          "plain numbers in SI units");
+          "the unit table of UDUNITS-2 cannot be read (Debian: libudunits2-data); give plain numbers in SI units");
     Unit degree(ut_get_unit_by_name(read, "degree"));
-    ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // keeps a copy
+    ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // UDUNITS keeps a copy
     return read;
   }();
   return system;
@@ -65,23 +65,24 @@ ut_system* units() {
 
 Unit parse(const std::string& text) { return Unit(ut_parse(units(), text.c_str(), UT_UTF8)); }
 
-// In base units, "kg.m-1.s-2".
+// A unit written in base units: "kg.m-1.s-2" for the pascal.
 std::string base_units(const ut_unit* unit) {
   std::array<char, 200> text{};
   const int length = ut_format(unit, text.data(), text.size(), UT_ASCII | UT_DEFINITION);
   return length < 0 ? "" : std::string(text.data(), static_cast<std::size_t>(length));
 }
 
-// UDUNITS takes a radian for the number one.
+// Whether a unit contains an angle. UDUNITS treats a radian as the number one.
 bool has_angle(const ut_unit* unit) { return base_units(unit).find("rad") != std::string::npos; }
 
-// UDUNITS also converts between reciprocals, as of time and frequency.
+// Whether two units convert into each other. UDUNITS would also convert between reciprocals, such as time and
+// frequency.
 bool same_dimension(const ut_unit* a, const ut_unit* b) {
   const Unit ratio(ut_divide(a, b));
   return ratio && ut_is_dimensionless(ratio.get()) != 0 && has_angle(a) == has_angle(b);
 }
 
-// "%", "ppm": dimensionless, with a scale.
+// True for dimensionless units other than angles: "%", "ppm".
 bool is_ratio(const ut_unit* unit) { return ut_is_dimensionless(unit) != 0 && !has_angle(unit); }
 
 double size_of_ratio(const ut_unit* unit) {
@@ -90,31 +91,31 @@ double size_of_ratio(const ut_unit* unit) {
   return converter ? cv_convert_double(converter.get(), 1) : NAN;
 }
 
-// "GPa 3" would be a unit of its own.
+// True for "GPa 3", which UDUNITS would accept as a unit.
 bool has_factor(const std::string& unit) {
   for (std::size_t i = 0; i < unit.size(); ++i)
     if (unit[i] >= '0' && unit[i] <= '9' && (i == 0 || unit[i - 1] == ' ')) return true;
   return false;
 }
 
-// "10,8 GPa" leaves ",8 GPa" behind its number.
+// `unit`: what follows the number; ",8 GPa" for "10,8 GPa".
 bool is_decimal_comma(const std::string& unit) {
   return unit.size() > 1 && unit[0] == ',' && std::isdigit(static_cast<unsigned char>(unit[1])) != 0;
 }
 
-// "; did you mean 'GPa'?" of an unknown unit that is a usual one but for capitals.
+// "; did you mean 'GPa'?" for an unknown unit that differs from a common one only in its capitals.
 std::string other_capitals(const std::string& unknown) {
-  constexpr std::array<const char*, 18> kUsual{"GPa", "MPa", "kPa", "Pa", "mm", "cm",  "km",  "m",  "ms",
-                                               "s",   "kg",  "kN",  "MN", "N",  "kHz", "MHz", "Hz", "kg/m^3"};
+  constexpr const char* kCommon[] = {"GPa", "MPa", "kPa", "Pa", "mm", "cm",  "km",  "m",  "ms",
+                                     "s",   "kg",  "kN",  "MN", "N",  "kHz", "MHz", "Hz", "kg/m^3"};
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
   };
-  for (const std::string usual : kUsual)
-    if (std::ranges::equal(unknown, usual, same)) return fmt::format("; did you mean '{}'?", usual);
+  for (const std::string common : kCommon)
+    if (std::ranges::equal(unknown, common, same)) return fmt::format("; did you mean '{}'?", common);
   return "";
 }
 
-// "length (m)" of a unit that the user gave.
+// "length (m)" for a unit given by the user.
 std::string describe(const ut_unit* unit) {
   for (const auto& [known, word] : kDimensions)
     if (same_dimension(unit, parse(known).get())) return fmt::format("{} ({})", word, known);
@@ -136,7 +137,7 @@ std::optional<NumberWithUnit> split_quantity(const std::string& text) {
   double number = 0;
   const char *begin = text.data(), *end = begin + text.size();
   while (begin != end && *begin == ' ') ++begin;
-  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;  // from_chars knows no plus sign
+  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;  // from_chars refuses a plus sign
   const auto [rest, error] = std::from_chars(begin, end, number);
   std::string name(rest, end);
   name.erase(0, name.find_first_not_of(' '));
@@ -161,12 +162,13 @@ double quantity_in(const std::string& text, const std::string& unit) {
   const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
   if (!given) fail(fmt::format("'{}': the unit '{}' is not known{}", text, name, other_capitals(name)));
   if (unit.empty() && is_ratio(given.get()))
-    fail(fmt::format("'{}': {} is no unit here; write {:.6g}", text, name, number * size_of_ratio(given.get())));
+    fail(fmt::format("'{}': the unit {} is not allowed here; write {:.6g}", text, name,
+                     number * size_of_ratio(given.get())));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Unit wanted = parse(unit);
-  if (!wanted) fail(fmt::format("'{}'; give a plain number", text));  // such as bytes
+  if (!wanted) fail(fmt::format("'{}'; give a plain number", text));  // for example bytes, which UDUNITS does not know
   const bool fits = same_dimension(given.get(), wanted.get());
-  if (!fits && is_ratio(given.get())) fail(fmt::format("'{}': {} is no unit here", text, name));
+  if (!fits && is_ratio(given.get())) fail(fmt::format("'{}': the unit {} is not allowed here", text, name));
   if (!fits) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Converter converter(ut_get_converter(given.get(), wanted.get()));
   const double value = converter ? cv_convert_double(converter.get(), number) : NAN;

@@ -4,8 +4,8 @@ namespace orthodyn {
 
 namespace {
 
-// The length of the character that begins at `at`, or 0: the second byte's range excludes overlong forms, surrogates
-// and what lies beyond U+10FFFF.
+// The length of the character that begins at `at`, or 0 if it is invalid. The range of the second byte excludes
+// overlong forms, surrogates and code points above U+10FFFF.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
   const auto is_within = [&](std::size_t i, unsigned low, unsigned high) { return byte(i) >= low && byte(i) <= high; };

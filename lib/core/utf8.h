@@ -1,4 +1,4 @@
-// Whether a text is UTF-8 (RFC 3629): input that is not would be refused by those who read our files.
+// Checks text for UTF-8 (RFC 3629), which readers of our output files require, and converts Latin-1 to it.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace orthodyn {
 
-// The index of the first byte that begins no character, or npos.
+// The index of the first byte that does not begin a valid character, or npos.
 std::size_t find_invalid_utf8(std::string_view text);
 
-// Of Latin-1 (ISO 8859-1).
+// Converts from Latin-1 (ISO 8859-1).
 std::string utf8_from_latin1(std::string_view text);
 
 }  // namespace orthodyn

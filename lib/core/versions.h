@@ -1,4 +1,4 @@
-// The versions of orthodyn and of the libraries that it runs on.
+// The versions of orthodyn and of its libraries.
 #pragma once
 
 #include <map>
@@ -8,10 +8,10 @@ namespace orthodyn {
 
 std::string orthodyn_version();
 
-// The commit that this was built from, with "-dirty" where files differed from it; "unknown" outside of a clone.
+// The commit of the build, with "-dirty" if files differed from it; "unknown" if built outside of a clone.
 std::string orthodyn_commit();
 
-// Each module that wraps a library adds its entry: {"SUNDIALS", "6.4.1"}.
+// Versions by library, such as {"SUNDIALS", "6.4.1"}. The module that wraps a library adds its entry.
 std::map<std::string, std::string>& library_versions();
 
 }  // namespace orthodyn

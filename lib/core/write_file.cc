@@ -17,37 +17,12 @@ namespace orthodyn {
 
 namespace {
 
-bool leaves_files_to_others = false;
+bool file_writing_enabled = true;
 
-// What fsync says: some file systems cannot sync a folder, or anything, and say so.
-bool is_lasting(int status) { return status == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
+// Result of fsync. Errors that mean "this file system cannot sync" count as success.
+bool is_synced(int status) { return status == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
-}  // namespace
-
-bool writes_files() { return !leaves_files_to_others; }
-void leave_files_to_others() { leaves_files_to_others = true; }
-
-void fail_to_write(const std::filesystem::path& path) {
-  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out", path.string(),
-                             std::strerror(errno)),
-                 Reason::disk);
-}
-
-bool write_all(int file, std::string_view text, std::size_t at) {
-  while (!text.empty()) {
-    const auto written = ::pwrite(file, text.data(), text.size(), static_cast<off_t>(at));
-    if (written < 0 && errno == EINTR) continue;
-    if (written == 0) errno = ENOSPC;
-    if (written <= 0) return false;
-    at += static_cast<std::size_t>(written);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-namespace {
-
-// To a device or a pipe, in whose place no file may come.
+// Writes into a device or a pipe, which must not be replaced by a file.
 void write_in_place(const std::filesystem::path& path, const std::vector<std::string>& parts) {
   std::ofstream out(path, std::ios::binary);
   for (const auto& text : parts) out.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -55,7 +30,7 @@ void write_in_place(const std::filesystem::path& path, const std::vector<std::st
   if (!out) fail_to_write(path);
 }
 
-// A new file beside the one that is meant: nobody else's, whatever stands there under a similar name, a link included.
+// A new temporary file beside the final one. It never opens an existing file or follows a link.
 class PartialFile {
  public:
   explicit PartialFile(const std::filesystem::path& whole) {
@@ -77,7 +52,7 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  // All of these: false with the reason in errno.
+  // The following functions return false on failure, with the cause in errno.
   bool write(const std::vector<std::string>& parts) {
     for (const auto& text : parts) {
       if (!write_all(file_, text, size_)) return false;
@@ -85,7 +60,7 @@ class PartialFile {
     }
     return true;
   }
-  bool make_lasting() const { return is_lasting(::fsync(file_)); }
+  bool sync_to_disk() const { return is_synced(::fsync(file_)); }
   bool rename_to(const std::filesystem::path& whole) {
     const bool closed = ::close(std::exchange(file_, -1)) == 0;  // some file systems write only now
     if (!closed || ::rename(path_.c_str(), whole.c_str()) != 0) return false;
@@ -99,7 +74,7 @@ class PartialFile {
   std::size_t size_ = 0;
 };
 
-void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
+void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool durable) {
   if (!writes_files()) return;
   std::error_code ec;
   const auto kind = std::filesystem::status(path, ec).type();
@@ -107,11 +82,32 @@ void write_whole_file(const std::filesystem::path& path, const std::vector<std::
     return write_in_place(path, parts);
   make_folder_of(path);
   PartialFile part(path);
-  if (!part.write(parts) || (lasting && !part.make_lasting()) || !part.rename_to(path)) fail_to_write(path);
-  if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
+  if (!part.write(parts) || (durable && !part.sync_to_disk()) || !part.rename_to(path)) fail_to_write(path);
+  if (durable) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");  // makes the new name durable
 }
 
 }  // namespace
+
+bool writes_files() { return file_writing_enabled; }
+void disable_file_writing() { file_writing_enabled = false; }
+
+void fail_to_write(const std::filesystem::path& path) {
+  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out", path.string(),
+                             std::strerror(errno)),
+                 Reason::disk);
+}
+
+bool write_all(int file, std::string_view text, std::size_t at) {
+  while (!text.empty()) {
+    const auto written = ::pwrite(file, text.data(), text.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written == 0) errno = ENOSPC;
+    if (written <= 0) return false;
+    at += static_cast<std::size_t>(written);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
 
 void make_folder_of(const std::filesystem::path& path) {
   if (!writes_files()) return;
@@ -125,7 +121,7 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
   write_whole_file(path, parts, false);
 }
 
-void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+void write_durable_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
   write_whole_file(path, parts, true);
 }
 
@@ -138,18 +134,18 @@ void remove_partial_files(const std::filesystem::path& folder) {
     if (at->symlink_status(ec).type() == std::filesystem::file_type::regular &&
         std::regex_match(at->path().filename().string(), partial))
       found.push_back(at->path());
-  for (const auto& path : found) std::filesystem::remove(path, ec);  // what stays is in nobody's way
+  for (const auto& path : found) std::filesystem::remove(path, ec);  // failures are harmless
 }
 
-void make_lasting(const std::filesystem::path& path) {
+void sync_to_disk(const std::filesystem::path& path) {
   if (!writes_files()) return;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail_to_write(path);
-  const bool lasts = is_lasting(::fsync(file));
+  const bool synced = is_synced(::fsync(file));
   const int error = errno;
   ::close(file);
   errno = error;
-  if (!lasts) fail_to_write(path);
+  if (!synced) fail_to_write(path);
 }
 
 }  // namespace orthodyn

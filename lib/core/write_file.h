@@ -1,4 +1,4 @@
-// Files that are whole or absent. All throw RunError with the reason of the system.
+// Atomic writing of files: a file is complete or absent. All functions throw RunError with the system's error message.
 #pragma once
 
 #include <cstddef>
@@ -9,33 +9,33 @@
 
 namespace orthodyn {
 
-// Whether this process writes its results. Of several ranks one does, and the others leave all files to it: whatever
-// would change a file then does nothing.
+// Whether this process writes files. Only the first of several MPI ranks does; on the others, after
+// disable_file_writing(), functions that would change a file do nothing.
 bool writes_files();
-void leave_files_to_others();
+void disable_file_writing();
 
-// Writes the parts one after the other. To a new file NAME.<process>-<number>.part first, then renamed: the file is
-// whole or absent. Its folder is made. Devices and pipes are written to as they are.
+// Writes the parts one after the other into NAME.<process>-<number>.part, then renames that file to NAME. Creates the
+// folder. Devices and pipes are written directly.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
-// The same; it survives a power cut once this has returned.
-void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
+// As write_file(). Once it has returned, the file survives a power failure.
+void write_durable_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
-// Writes all of a text into an open file, `at` bytes from its begin, as many calls to the system as it takes. False
-// with the reason in errno.
+// Writes all of `text` into an open file, `at` bytes after its start. Returns false on failure, with the cause in
+// errno.
 bool write_all(int file, std::string_view text, std::size_t at);
 
-// Removes the NAME.<process>-<number>.part of processes that were killed while they wrote, from a folder and those
-// within. Precondition: no other process writes there.
+// Removes the files NAME.<process>-<number>.part that killed processes left in a folder and its subfolders.
+// Precondition: no other process writes there.
 void remove_partial_files(const std::filesystem::path& folder);
 
-// Waits until what was written to a file is on the disk.
-void make_lasting(const std::filesystem::path& path);
+// Waits until the content of a file is on the disk.
+void sync_to_disk(const std::filesystem::path& path);
 
-// The folder that a file is to stand in, with those above it.
+// Creates the folder of a file, with its parents.
 void make_folder_of(const std::filesystem::path& path);
 
-// What they throw, with the reason in errno.
+// Throws the RunError of a failed write, with the cause in errno.
 [[noreturn]] void fail_to_write(const std::filesystem::path& path);
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// The correspondence between skew matrices and vectors: [w] x = w x x, and a(A) = 2 x the axial
-// vector of the skew part of A. For symmetric S: a([w] S) = G w with G = tr(S) I - S.
+// Skew matrices and axial vectors: [w] y = w x y (cross product), and a(A) is twice the axial vector of the skew part
+// of A. For symmetric S, a([w] S) = G w with G = tr(S) I - S.
 #pragma once
 
 #include "lib/core/types.h"
@@ -23,13 +23,13 @@ Mat3T<T> symmetric_part(const Mat3T<T>& A) {
   return T(0.5) * (A + A.transpose());
 }
 
-// A : B
+// The double contraction A : B.
 template <class T>
 T contract(const Mat3T<T>& A, const Mat3T<T>& B) {
   return A.cwiseProduct(B).sum();
 }
 
-// Of a symmetric strain the Voigt form, with engineering shear (stiffness.h).
+// The Voigt form of a symmetric strain, with engineering shear (stiffness.h).
 template <class T>
 Eigen::Matrix<T, 6, 1> voigt_strain(const Mat3T<T>& e) {
   return {e(0, 0), e(1, 1), e(2, 2), T(2) * e(0, 1), T(2) * e(1, 2), T(2) * e(2, 0)};

@@ -1,7 +1,7 @@
-// A number type of several doubles side by side, for kernels that treat one element per lane.
+// A SIMD number: several doubles, for kernels that process one element per lane.
 //
-// It has what the element kernels need: arithmetic, sqrt, comparison to a mask, choice by a mask.
-// The same functions exist for double (with bool as the mask), so that one kernel serves both.
+// Provides arithmetic, sqrt, comparisons that give a mask, and select() by a mask. The same functions exist for double
+// with bool as the mask, so that one kernel template serves both.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace orthodyn {
 
-// The number of lanes is part of the name: an element or a law that is compiled for another kind of processor than the
-// library does not load with it, for its polar decomposition (polar.h) is missing. ElementAxes and ElementBatches,
-// whose layout depends on it, have it in their names, too.
+// The number of lanes is part of the namespace: a plugin that is compiled for another number of lanes than the library
+// fails to load, since the library lacks the polar decomposition (polar.h) for it. The names of ElementAxes and
+// ElementBatches, whose layout depends on the lanes, contain the number too.
 #if defined(__AVX512F__)
 inline constexpr int kBatchLanes = 8;
 #define ORTHODYN_LANES lanes_8
@@ -22,8 +22,8 @@ inline constexpr int kBatchLanes = 4;
 #define ORTHODYN_LANES lanes_4
 #endif
 
-// For kernels of a batch: all that they call is compiled into them. Not with the address sanitizer: they would take
-// minutes to compile.
+// Inlines everything that a batch kernel calls. Off with the address sanitizer, where inlining takes minutes to
+// compile.
 #if defined(__SANITIZE_ADDRESS__)
 #define ORTHODYN_FLATTEN
 #else
@@ -70,7 +70,7 @@ class Batch {
 
 }  // namespace ORTHODYN_LANES
 
-// What the library was compiled for: "AVX-512", "AVX2", ...
+// The instruction set that the library was compiled for: "AVX-512", "AVX2", ...
 const char* vector_instructions();
 
 inline Batch sqrt(const Batch& x) {

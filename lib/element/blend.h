@@ -1,9 +1,10 @@
 // The weight chi that keeps an anisotropic corotational energy continuously differentiable through inversion:
-//     Psi = chi W + (1 - chi) W_iso,   chi = smoothstep(q),   q = det G / (g0 + c min(det F, 0)^2).
-// An anisotropic W(S - I) is multi-valued where R is not unique (det G = 0), and its force grows
-// like 1/det G there; the nearest isotropic law is single-valued. chi = 1 for every det F >= 0 with
-// det G >= g0 (8 at rest): the model is untouched in regular states. Both det G and det F are
-// polynomials in S, so chi is continuously differentiable and Psi an energy.
+//     Psi = chi W + (1 - chi) W_iso,   chi = q^3 (10 - 15 q + 6 q^2),   q = det G / (g0 + c min(det F, 0)^2),
+// with q clamped to [0, 1], F = R S (polar.h), G = tr(S) I - S, g0 = kBlendG0 and c = kBlendInversion. W and W_iso are
+// the energies of the strain S - I for the stiffness and for the isotropic stiffness nearest to it. Where R is not
+// unique (det G = 0), W is multi-valued and its force grows like 1/det G, but W_iso is single-valued. Regular states
+// (det F >= 0, det G >= g0) have chi = 1; det G = 8 at rest. det G and det F are polynomials in S, so chi is
+// continuously differentiable and Psi is an energy.
 #pragma once
 
 #include "lib/element/axial.h"
@@ -18,7 +19,7 @@ struct Blend {
   Mat3T<T> gradient = Mat3T<T>::Zero();  // dchi/dS, symmetric
 };
 
-// The mask of states in which chi = 1.
+// The mask of lanes with det F >= 0 and det G >= g0, where chi = 1.
 template <class T>
 auto is_regular(const Mat3T<T>& S, const T& det_G) {
   const Mat3T<T> cof = cofactor_of_symmetric<T>(S);

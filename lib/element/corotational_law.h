@@ -1,16 +1,20 @@
 // The corotational law at a point: Psi(F) = W(S - I) with F = R S and W(e) = e:C:e / 2.
 //
-// Its exact gradient is P = R (sigma + [c]), G c = a(S sigma), G = tr(S) I - S: the classic warped
-// stress R sigma plus the correction that makes it conservative and free of torque for anisotropic
-// C. Inverted states are blended into the nearest isotropic law (blend.h). For isotropic C, c = 0
-// and no blending is needed: neither is computed.
+// With the stress sigma = C:(S - I), G = tr(S) I - S and the notation of axial.h, its exact gradient is
+//     P = R (sigma + [c])   with   G c = a(S sigma):
+// the warped stress R sigma plus a correction that makes P conservative and free of torque for anisotropic C. Inverted
+// states are blended into the nearest isotropic law (blend.h). For isotropic C, c = 0 and no blending is needed, so
+// neither is computed.
 //
-// Given is the displacement gradient H = F - I (strain.h), in material axes: H^ = H Q, the columns of Q being the axes,
-// so that C is in its sparse form; F^ = F Q and P^ = P Q likewise. Stateless: R is a pure function of F.
+// The input is the displacement gradient H = F - I (strain.h) in material axes: H^ = H Q with the axes as columns of Q,
+// so that C has its sparse form. Likewise F^ = F Q and P^ = P Q. The law has no state: R is a pure function of F.
 //
-// Derivation: with X = R^T dF, w = G^-1 a(X), dS = sym(X) - sym([w] S), T = sigma + [c], tau = T S:
-//     d2Psi = dS:C:dS + 2 w . a(dS T^T) + w . (tr(tau) I - tau) w,
-// whose first term is the Gauss-Newton part.
+// Batch functions are valid in the lanes of `good`; the caller evaluates the other lanes (inverted, singular) one by
+// one. Batch functions are flattened, because function calls would pass batches through memory.
+//
+// Derivation of the tangent: with X = R^T dF, w = G^-1 a(X), dS = sym(X) - sym([w] S), T = sigma + [c], tau = T S,
+//     d2Psi = dS:C:dS + 2 w . a(dS T^T) + w . (tr(tau) I - tau) w.
+// The first term is the Gauss-Newton part.
 #pragma once
 
 #include "lib/core/errors.h"
@@ -20,11 +24,11 @@
 
 namespace orthodyn {
 
-// The positive semidefinite form dS : C : dS, for one point or a batch of them. G is not singular.
+// The positive semidefinite Gauss-Newton part dS:C:dS, for one point or a batch. Precondition: G is not singular.
 template <class C, class T>
 TangentFormOf<C, T> gauss_newton_form(const Polar<T>& p, const C& stiffness);
 
-// The form of d2Psi where chi = 1; stress = sigma + [c].
+// The whole d2Psi for chi = 1; stress = sigma + [c].
 template <class C, class T>
 TangentFormOf<C, T> exact_form(const Polar<T>& p, const C& stiffness, const Mat3T<T>& stress);
 
@@ -55,7 +59,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     }
   }
 
-  // First Piola-Kirchhoff stress times Q; with F_rate the viscous stress of weight beta is added.
+  // First Piola-Kirchhoff stress times Q, Pa. With F_rate (1/s), adds the viscous stress for the damping beta (s).
   template <class T>
   Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr, double beta = 0) const {
     const auto p = polar(deformation_gradient<T>(H, Q), Q);
@@ -65,8 +69,6 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return P;
   }
 
-  // stress() for a batch of points; right in the lanes of `good`, the others (inverted, singular) are
-  // to be done one by one. Flattened, as others: batches that pass through a call pass through memory.
   template <class Axes>
   ORTHODYN_FLATTEN Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate,
                                              double beta, Batch::Mask& good) const {
@@ -77,8 +79,8 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return P;
   }
 
-  // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
-  // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
+  // Returns the elastic tangent and, unless `damping` is null, sets the damping tangent dP/dF_rate. In blended states
+  // both kinds of tangent are positive semidefinite approximations, since the Hessian is unbounded there.
   Form tangent(const Mat3& H, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
     const auto p = polar(deformation_gradient<double>(H, Q), Q);
     const auto b = blend<double>(p.S, p.det_G);
@@ -88,7 +90,6 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return exact_form(p, sparse_, regular_stress<double>(p, stretch_strain<double>(H, Q, p.S)));
   }
 
-  // tangent() for a batch of points; right in the lanes of `good`, the others are to be done one by one.
   template <class Axes>
   BatchForm batch_tangent(const Mat3T<Batch>& H, const Axes& Q, TangentKind kind, double beta, BatchForm* damping,
                           Batch::Mask& good) const {
@@ -99,10 +100,10 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return exact_form(p, sparse_, regular_stress<Batch>(p, stretch_strain<Batch>(H, Q, p.S)));
   }
 
-  // The exact tangent at H, but with the stress that the tangent at H0 predicts for it, C (S0 - I + dS): that of
-  // Newton's method for stress and displacement as unknowns of their own (Magisano, Leonetti & Garcea, CMAME 313,
-  // 2017). A straight step of a slender body that bends stretches it: the stress of that is not in the tangent.
-  // The exact tangent where an end is blended.
+  // The exact tangent at H, with the stress at H replaced by its prediction C:(S0 - I + dS) from the state H0, where dS
+  // is linear in F - F0. This is the tangent of Newton's method with independent stress unknowns (Magisano, Leonetti &
+  // Garcea, CMAME 313, 2017). It excludes the spurious stress of a straight Newton step, which stretches a body that
+  // bends. Returns tangent() at H if either state is blended.
   Form mixed_tangent(const Mat3& H0, const Mat3& H, const Mat3& Q) const {
     const Mat3 F0 = deformation_gradient<double>(H0, Q), F = deformation_gradient<double>(H, Q);
     const auto p0 = polar(F0, Q), p = polar(F, Q);
@@ -113,20 +114,21 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return exact_form(p, sparse_, Mat3(sigma + cross_matrix<double>(c)));
   }
 
-  // The stress of two states, P Q, with P : (F1 - F0) = Psi(F1) - Psi(F0) and P (F0 + F1)^T symmetric, which is
-  // the discrete derivative in C = F^T F (Simo & Tarnow 1992; Gonzalez 2000): P = (F0 + F1)/2 X, X symmetric.
-  // Psi is quadratic in S and S^2 = C, so that X needs no quotient of differences: with the means s of S and
-  // sigma, Psi1 - Psi0 = sigma : (S1 - S0) and s (S1 - S0) + (S1 - S0) s = C1 - C0 give s X + X s = 2 sigma.
-  // Throws RecoverableError where an end is inverted or blended: C does not know the sign of det F.
+  // The stress P Q between two states with P : (F1 - F0) = Psi(F1) - Psi(F0), which conserves energy, and P (F0 + F1)^T
+  // symmetric, which conserves angular momentum. P = (F0 + F1)/2 X with symmetric X is the discrete derivative with
+  // respect to F^T F (Simo & Tarnow 1992; Gonzalez 2000). X needs no difference quotient, because Psi is quadratic in S
+  // and S^2 = F^T F. With the means s of S and sigma of the stresses,
+  //     Psi1 - Psi0 = sigma : (S1 - S0)   and   s (S1 - S0) + (S1 - S0) s = S1^2 - S0^2   give   s X + X s = 2 sigma.
+  // Throws RecoverableError if either state is inverted or blended, because F^T F does not depend on the sign of det F.
   Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
     const auto p0 = polar(deformation_gradient<double>(H0, Q), Q), p1 = polar(deformation_gradient<double>(H1, Q), Q);
     for (const auto* p : {&p0, &p1})
       if (!(p->S.determinant() > 0) || !is_regular<double>(p->S, p->det_G))
-        throw RecoverableError("an element is inverted or flattened, where steps that keep the energy have no force");
+        throw RecoverableError(
+            "an element is inverted or flat; the force of energy-conserving steps is undefined there");
     return mean_stress_between<double>(H0, p0, H1, p1, Q);
   }
 
-  // mean_stress() for a batch of points; right in the lanes of `good`, the others are to be done one by one.
   template <class Axes>
   ORTHODYN_FLATTEN Mat3T<Batch> batch_mean_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1, const Axes& Q,
                                                   Batch::Mask& good) const {
@@ -136,19 +138,19 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return mean_stress_between<Batch>(H0, p0, H1, p1, Q);
   }
 
-  // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1; e = S - I.
+  // The stress in the rotated frame, T = sigma + [c] with P = R T, for chi = 1; e = S - I.
   template <class T>
   Mat3T<T> regular_stress(const Polar<T>& p, const Mat3T<T>& e) const {
     const Mat3T<T> sigma = C_.stress(e);
     if constexpr (C::kIsotropic) {
       return sigma;
     } else {
-      const Vec3T<T> c = p.G_inverse * axial<T>(e * sigma);  // a(S sigma), for a(sigma) = 0
+      const Vec3T<T> c = p.G_inverse * axial<T>(e * sigma);  // = a(S sigma), as a(sigma) = 0
       return sigma + cross_matrix<T>(c);
     }
   }
 
-  // The same in any state, and its chi.
+  // As regular_stress(), but for any state. Sets chi if C is anisotropic.
   template <class T>
   Mat3T<T> rotated_stress(const Polar<T>& p, const Mat3T<T>& e, T& chi) const {
     if constexpr (C::kIsotropic) {
@@ -172,7 +174,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return deformation_gradient<T>(T(0.5) * (H0 + H1), Q) * solve_lyapunov<T>(S, C_.stress(strains));
   }
 
-  // chi must multiply the damping also where an isotropic energy is not blended: dS/dF is unbounded.
+  // Returns beta chi, also for isotropic laws: their energy is not blended, but dS/dF is unbounded where G is singular.
   template <class T>
   T damping_weight(const Polar<T>& p, const T& chi, const T& beta) const {
     if constexpr (C::kIsotropic) return beta * blend<T>(p.S, p.det_G).chi;
@@ -182,10 +184,10 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   // chi times the Gauss-Newton form.
   static Form weighted_form(const Polar<double>& p, const TangentStiffness<C>& stiffness, double chi) {
     if (chi > 0) return gauss_newton_form(p, chi * stiffness);
-    return {p.R, {}, Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};  // G may be singular: nothing to weigh
+    return {p.R, {}, Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};  // G may be singular
   }
 
-  // chi times the Gauss-Newton part and 1 - chi times the isotropic law at fixed rotation.
+  // chi times the Gauss-Newton part plus 1 - chi times the isotropic law at fixed rotation.
   Form blended_form(const Polar<double>& p, double chi) const {
     Form form = weighted_form(p, sparse_, chi);
     if constexpr (C::kIsotropic) form.Hee = form.Hee + (1 - chi) * sparse_;
@@ -195,7 +197,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
 
   using RotatingLaw<CorotationalLaw, C>::C_;
   TangentStiffness<C> sparse_;
-  IsotropicStiffness isotropic_;  // the nearest one; used by anisotropic C only
+  IsotropicStiffness isotropic_;  // nearest to C; unused for isotropic C
 };
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// Small strain: Psi = e:C:e / 2 with e = sym(H), H = F - I. Not invariant under rotation; its tangent is
-// constant.
+// The law of small strain: Psi = e:C:e / 2, e = sym(H), H = F - I. Its tangent is constant; it is not invariant under
+// rotation.
 #pragma once
 
 #include "lib/element/corotational_law.h"
@@ -15,8 +15,7 @@ class LinearLaw {
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
-  // Arguments as in corotational_law.h. Q: one rotation for all lanes of a batch (Mat3), or one for each
-  // (Mat3T<Batch>).
+  // Arguments as in corotational_law.h. Q: one rotation for all lanes (Mat3), or one per lane (Mat3T<Batch>).
   template <class T, class Axes>
   T energy(const Mat3T<T>& H, const Axes& Q) const {
     const Mat3T<T> e = small_strain<T>(H, Q);
@@ -30,7 +29,7 @@ class LinearLaw {
     return Q.template cast<T>() * s;
   }
 
-  // With P : (H1 - H0) = Psi(H1) - Psi(H0): Psi is quadratic.
+  // Conserves energy, P : (H1 - H0) = Psi(H1) - Psi(H0), as Psi is quadratic.
   Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const { return stress<double>(0.5 * (H0 + H1), Q); }
   template <class Axes>
   Mat3T<Batch> batch_mean_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1, const Axes& Q,
@@ -41,19 +40,19 @@ class LinearLaw {
   template <class Axes>
   Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
                             Batch::Mask& good) const {
-    good = H(0, 0) <= H(0, 0);  // all but NaN
+    good = not_nan(H);
     return stress<Batch>(H, Q, F_rate, beta);
   }
 
   template <class Axes>
   Mat3T<Batch> batch_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
-    good = H(0, 0) <= H(0, 0);  // all but NaN
+    good = not_nan(H);
     return small_strain<Batch>(H, Q);
   }
 
   template <class Axes>
   Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
-    good = H(0, 0) <= H(0, 0);  // all but NaN
+    good = not_nan(H);
     return energy<Batch>(H, Q);
   }
 
@@ -65,7 +64,7 @@ class LinearLaw {
   Batch batch_dissipation(const Mat3T<Batch>&, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
                           Batch::Mask& good) const {
     const Mat3T<Batch> rate = small_strain<Batch>(F_rate, Q);
-    good = rate(0, 0) <= rate(0, 0);  // all but NaN
+    good = not_nan(rate);
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
 
@@ -82,6 +81,7 @@ class LinearLaw {
   }
 
  private:
+  static Batch::Mask not_nan(const Mat3T<Batch>& A) { return A(0, 0) <= A(0, 0); }
   C C_;
 };
 

@@ -1,20 +1,21 @@
-// X with S X + X S = B; S and B symmetric, S positive definite. For one point or a batch of them.
+// The Lyapunov equation S X + X S = B for symmetric S and B, S positive definite; for one point or a batch.
 #pragma once
 
 #include "lib/core/types.h"
 
 namespace orthodyn {
 
-// Six equations for X, of which the first three, halved, are
-//     S_ii X_ii + S_ij X_ij + S_ki X_ki = B_ii / 2:
-// a symmetric positive definite matrix (S (x) I + I (x) S on symmetric matrices, up to scaling), so that elimination
-// needs no pivots and loses no more than the conditioning of S. The diagonal of X first, which leaves three equations.
+// Gaussian elimination of the six equations for X. The diagonal equations are halved:
+//     S_ii X_ii + S_ij X_ij + S_ki X_ki = B_ii / 2.
+// The matrix of the equations is then symmetric positive definite (up to scaling it is S (x) I + I (x) S on symmetric
+// matrices), so no pivoting is needed and the condition of S governs the error. Eliminating the diagonal of X leaves
+// three equations.
 template <class T>
 Mat3T<T> solve_lyapunov(const Mat3T<T>& S, const Mat3T<T>& B) {
   const T a = S(0, 1), b = S(1, 2), c = S(2, 0);
   const T i0 = T(1) / S(0, 0), i1 = T(1) / S(1, 1), i2 = T(1) / S(2, 2);
   const T d0 = T(0.5) * B(0, 0) * i0, d1 = T(0.5) * B(1, 1) * i1, d2 = T(0.5) * B(2, 2) * i2;
-  // Of X_01, X_12, X_20.
+  // The equations for X_01, X_12, X_20.
   const T a00 = S(0, 0) + S(1, 1) - a * a * (i0 + i1), a11 = S(1, 1) + S(2, 2) - b * b * (i1 + i2),
           a22 = S(2, 2) + S(0, 0) - c * c * (i2 + i0);
   const T a01 = c - a * b * i1, a12 = a - b * c * i2, a02 = b - a * c * i0;

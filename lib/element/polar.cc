@@ -12,8 +12,9 @@ using namespace polar_detail;
 
 namespace {
 
-// The eigenvector of the largest eigenvalue; where that is multiple, the one nearest to identity or,
-// if identity is normal to all of them (a point mirror), to the first half turn that is not.
+// The eigenvector of Davenport's matrix for its largest eigenvalue. If that is multiple, the eigenvector nearest to the
+// identity. If all are orthogonal to the identity (a point reflection), the one nearest to the first of the half turns
+// about x, y and z to which not all are orthogonal.
 Vec4T<double> top_quaternion(const Mat3& F) {
   const Eigen::SelfAdjointEigenSolver<Mat4T<double>> eigen(davenport<double>(F));
   const auto& values = eigen.eigenvalues();
@@ -24,7 +25,16 @@ Vec4T<double> top_quaternion(const Mat3& F) {
       if (values[3] - values[k] < 1e-8) q += vectors(axis, k) * vectors.col(k);
     if (q.norm() > 1e-6) return q.normalized();
   }
-  return vectors.col(3);  // the four axes span the space: one of them has returned
+  return vectors.col(3);  // not reached: the four axes span the space
+}
+
+// The polar decomposition of any F, for batches that are not near rotations.
+[[gnu::noinline]] Batch::Mask general_polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+  const Batch norm = sqrt(F.cwiseProduct(F).sum());
+  const Mat3T<Batch> unit = F * (Batch(1) / norm);
+  const Batch::Mask good = decompose_unit<Batch>(unit, p);
+  scale<Batch>(p, norm);
+  return good;
 }
 
 }  // namespace
@@ -46,7 +56,7 @@ Polar<double> polar(const Mat3& F, const Mat3& tie) {
     scale<double>(p, norm);
     return p;
   }
-  // The rotation relative to `tie`, so that a tie is broken in space and not in F's own columns.
+  // Decomposes F relative to `tie`, so that ties are resolved in space and not in the columns of F.
   p.R = rotation<double>(top_quaternion(unit * tie.transpose())) * tie;
   if (const Mat3 start = p.R; !polish<double>(unit, p)) {
     p.R = start;
@@ -70,22 +80,9 @@ Polar<std::complex<double>> polar(const Mat3T<std::complex<double>>& F, const Ma
   return p;
 }
 
-namespace {
-
-// Of any state.
-[[gnu::noinline]] Batch::Mask far_polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
-  const Batch norm = sqrt(F.cwiseProduct(F).sum());
-  const Mat3T<Batch> unit = F * (Batch(1) / norm);
-  const Batch::Mask good = decompose_unit<Batch>(unit, p);
-  scale<Batch>(p, norm);
-  return good;
-}
-
-}  // namespace
-
 ORTHODYN_FLATTEN Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
   if (Batch::Mask good; decompose_near_rotation<Batch>(F, p, good)) return good;
-  return far_polar(F, p);
+  return general_polar(F, p);
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// The branch-free steps of the polar decomposition (polar.h), for one point or a batch of them. Included by polar.cc
-// alone: they are heavy to compile.
+// The branch-free steps of the polar decomposition (polar.h), for one point or a batch. Only polar.cc includes this
+// header, which is slow to compile.
 #pragma once
 
 #include "lib/element/axial.h"
@@ -9,9 +9,9 @@ namespace orthodyn {
 
 namespace polar_detail {
 
-inline constexpr double kRotationTolerance = 1e-15;  // on |a(R^T F)| / |F|, aimed at
-inline constexpr double kAcceptTolerance = 1e-13;    // and accepted
-inline constexpr double kSingularG = 1e-9;           // det G / |F|^3 below which R is not unique to round-off
+inline constexpr double kRotationTolerance = 1e-15;  // target for |a(R^T F)| / |F|
+inline constexpr double kAcceptTolerance = 1e-13;    // accepted |a(R^T F)| / |F|
+inline constexpr double kSingularG = 1e-9;           // below this det G / |F|^3, R is not unique to round-off
 inline constexpr int kPolishSteps = 3;
 
 template <class T>
@@ -19,7 +19,7 @@ using Mat4T = Eigen::Matrix<T, 4, 4>;
 template <class T>
 using Vec4T = Eigen::Matrix<T, 4, 1>;
 
-// Davenport's matrix: q^T B q = tr(R(q)^T F).
+// Davenport's matrix B of F, with q^T B q = tr(R(q)^T F) for the rotation R(q) of a unit quaternion q.
 template <class T>
 Mat4T<T> davenport(const Mat3T<T>& F) {
   const Vec3T<T> z = axial<T>(F);
@@ -34,8 +34,8 @@ Mat4T<T> davenport(const Mat3T<T>& F) {
   return B;
 }
 
-// Largest root of lambda^4 - 2 lambda^2 - 8 d lambda + c for |F| = 1, that is tr(S), to the accuracy
-// that the polishing steps need: they square the error, twice.
+// tr(S) for |F| = 1: the largest root of lambda^4 - 2 lambda^2 - 8 d lambda + c with d = det F and c = 1 - 4 |cof F|^2.
+// It is accurate enough for polish() to reach round-off.
 template <class T>
 T largest_eigenvalue(const Mat3T<T>& F) {
   const Vec3T<T> c0 = F.col(1).cross(F.col(2)), c1 = F.col(2).cross(F.col(0)), c2 = F.col(0).cross(F.col(1));
@@ -53,8 +53,8 @@ T largest_eigenvalue(const Mat3T<T>& F) {
   return x;
 }
 
-// The column with the largest diagonal entry of the adjugate of a symmetric 4x4 matrix: for a
-// singular one, its null vector, not normalised.
+// The column of the adjugate with the largest diagonal entry, for a symmetric 4x4 matrix. If the matrix is singular,
+// this is its null vector, not normalised.
 template <class T>
 Vec4T<T> adjugate_column(const Mat4T<T>& m) {
   const T s0 = m(0, 0) * m(1, 1) - m(1, 0) * m(0, 1), s1 = m(0, 0) * m(1, 2) - m(1, 0) * m(0, 2);
@@ -105,7 +105,7 @@ Mat3T<T> rotation(const Vec4T<T>& q) {
   return R;
 }
 
-// S, G and what follows from them, of A = R^T F.
+// Sets S, G^-1 and det G from A = R^T F; returns G.
 template <class T>
 Mat3T<T> set_stretch(const Mat3T<T>& A, Polar<T>& p) {
   p.S = symmetric_part<T>(A);
@@ -118,7 +118,7 @@ Mat3T<T> set_stretch(const Mat3T<T>& A, Polar<T>& p) {
   return G;
 }
 
-// R <- R cay(w), the Cayley transform of the rotation vector w; exact to third order.
+// R <- R cay(w), the Cayley transform of the rotation vector w, with an error of third order in w.
 template <class T>
 void turn(Mat3T<T>& R, const Vec3T<T>& w) {
   const Vec3T<T> h = T(0.5) * w;
@@ -128,7 +128,7 @@ void turn(Mat3T<T>& R, const Vec3T<T>& w) {
   R += factor * (R * step).eval();
 }
 
-// Newton steps from p.R for |F| = 1. The mask of those for which p then holds the maximiser.
+// Improves p.R by Newton steps, for |F| = 1. Returns the mask of lanes in which the result is the maximiser.
 template <class T>
 auto polish(const Mat3T<T>& F, Polar<T>& p) {
   for (int i = 0;; ++i) {
@@ -143,7 +143,7 @@ auto polish(const Mat3T<T>& F, Polar<T>& p) {
   }
 }
 
-// For |F| = 1; the mask of those that are right to round-off.
+// Decomposes F. Precondition: |F| = 1. Returns the mask of lanes that are exact to round-off.
 template <class T>
 auto decompose_unit(const Mat3T<T>& F, Polar<T>& p) {
   Mat4T<T> B = davenport<T>(F);
@@ -153,12 +153,12 @@ auto decompose_unit(const Mat3T<T>& F, Polar<T>& p) {
   return polish<T>(F, p);
 }
 
-// For F near a rotation: X <- X + X (I - X^T X)/2 from X = F (Newton & Schulz), which squares the distance from the
-// rotation and takes no division. False, and p is nothing, unless |F^T F - I| <= 1/2 and det F > 0 in all lanes; else
-// `good` are those that are right to round-off.
+// Decomposes F near a rotation by the Newton-Schulz iteration X <- X + X (I - X^T X)/2 from X = F, which converges
+// quadratically and needs no division. Returns false, with p invalid, unless |F^T F - I| <= 1/2 and det F > 0 in all
+// lanes. `good`: lanes exact to round-off.
 template <class T, class Mask>
 bool decompose_near_rotation(const Mat3T<T>& F, Polar<T>& p, Mask& good) {
-  constexpr double kFarthest = 0.5, kLast = 1e-8;  // of |I - X^T X|; the step after the latter leaves round-off
+  constexpr double kFarthest = 0.5, kLast = 1e-8;  // bounds on |I - X^T X| at the first and at the last step
   constexpr int kMostSteps = 8;
   const T det = F.col(0).dot(F.col(1).cross(F.col(2)));
   p.R = F;

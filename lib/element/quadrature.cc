@@ -40,7 +40,7 @@ const std::vector<TetrahedronPoint>& tetrahedron_points_of_degree_7() {
 }
 
 const std::array<TrianglePoint, 7>& triangle_points_of_degree_5() {
-  static constexpr double root = 3.872983346207417;  // of 15
+  static constexpr double root = 3.872983346207417;  // sqrt(15)
   static constexpr double a = (6 - root) / 21, b = (6 + root) / 21;
   static constexpr double near_corner = (155 - root) / 1200, near_side = (155 + root) / 1200;
   static const std::array<TrianglePoint, 7> all{{{Vec3::Constant(1.0 / 3), 9.0 / 40},

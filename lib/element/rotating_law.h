@@ -1,9 +1,8 @@
-// What the laws that rotate with the material have in common: objective viscous stress, and what can
-// be observed at a point.
+// The common base of laws that rotate with the material: objective viscous stress, and output at a point.
 //
-// Stiffness-proportional damping acts on the rate of the strain measure itself, so that a rigid
-// motion dissipates nothing: potential beta chi dS:C:dS / 2, P = R (s + [c]), s = beta chi C:dS, G c = a(S s). As
-// G becomes singular dS grows without bound, and chi (blend.h) takes it to zero.
+// Stiffness-proportional damping acts on the rate of the strain S - I, so that a rigid motion dissipates nothing. With
+// dS the rate of S and beta the damping (s), its potential is beta chi dS:C:dS / 2 and its stress is P = R (s + [c])
+// with s = beta chi C:dS and G c = a(S s). As G becomes singular, dS is unbounded and chi (blend.h) tends to zero.
 #pragma once
 
 #include "lib/element/blend.h"
@@ -13,7 +12,7 @@
 
 namespace orthodyn {
 
-// dS for a change dF of F.
+// The change dS of S for the change dF of F.
 template <class T>
 Mat3T<T> stretch_change(const Polar<T>& p, const Mat3T<T>& dF) {
   const Mat3T<T> X = p.R.transpose() * dF;
@@ -28,13 +27,13 @@ Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi
   return p.R * (s + cross_matrix<T>(c));
 }
 
-// Law derives from RotatingLaw<Law, C> and has stress(H, Q); arguments as in corotational_law.h.
+// Law derives from RotatingLaw<Law, C> and has stress(H, Q). Arguments and `good` as in corotational_law.h.
 template <class Law, class C>
 class RotatingLaw {
  public:
   explicit RotatingLaw(const C& stiffness) : C_(stiffness) {}
 
-  // Energy per volume of a batch; right in the lanes of `good`.
+  // Energy per volume, J/m^3.
   template <class Axes>
   ORTHODYN_FLATTEN Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
@@ -43,7 +42,7 @@ class RotatingLaw {
     return Batch(0.5) * contract<Batch>(C_.stress(e), e);
   }
 
-  // S - I of a batch, right in the lanes of `good`.
+  // The strain S - I.
   template <class Axes>
   ORTHODYN_FLATTEN Mat3T<Batch> batch_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
@@ -51,14 +50,13 @@ class RotatingLaw {
     return stretch_strain<Batch>(H, Q, p.S);
   }
 
-  // Power per volume that damping takes, beta chi dS:C:dS, W/m^3.
+  // Dissipated power per volume, beta chi dS:C:dS with the rate dS of S, W/m^3.
   double dissipation(const Mat3& H, const Mat3& Q, const Mat3& F_rate, double beta) const {
     const auto p = polar(deformation_gradient<double>(H, Q), Q);
     const double chi = blend<double>(p.S, p.det_G).chi;
     return contract<double>(viscous_stress<double>(p, C_, beta * chi, F_rate), F_rate);
   }
 
-  // The same for a batch; right in the lanes of `good`.
   template <class Axes>
   ORTHODYN_FLATTEN Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate,
                                            double beta, Batch::Mask& good) const {
@@ -75,7 +73,7 @@ class RotatingLaw {
   }
 
  protected:
-  // The mask of regular lanes.
+  // Sets p. Returns the mask of lanes in which p is valid and the state is regular (blend.h).
   template <class Axes>
   static Batch::Mask regular_polar(const Mat3T<Batch>& H, const Axes& Q, Polar<Batch>& p) {
     const Batch::Mask good = polar(deformation_gradient<Batch>(H, Q), p);

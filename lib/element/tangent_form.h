@@ -1,9 +1,9 @@
-// The second variation of an energy at a point, in the rotated frame.
+// The second variation of an energy density at a point, in the rotated frame.
 //
-// For a change dF let X = R^T dF, e = sym(X) in Voigt form (engineering shear), a = a(X). Then
+// For a change dF let X = R^T dF, e = sym(X) in Voigt form (engineering shear), and a = a(X) (axial.h). Then
 //     d2Psi = e . Hee e + 2 e . Hea a + a . Haa a.
-// Every corotational tangent has this form; Hee is a material stiffness: nine numbers if orthotropic.
-// A tangent that is not symmetric has its own Hae (3x6) in place of Hea^T.
+// Every corotational tangent has this form. Hee is a material stiffness (nine numbers if orthotropic). Unsymmetric
+// tangents have a separate Hae (3x6) in place of Hea^T.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ using Mat63 = Mat63T<double>;
 using Mat36 = Mat36T<double>;
 using Mat9 = Mat9T<double>;
 
-// Of one point (T = double) or a batch of them (T = Batch), which share Hee.
+// For one point (T = double), or for a batch of points with the same Hee (T = Batch).
 template <class C, class T = double>
 struct TangentFormOf {
   Mat3T<T> R;
@@ -37,9 +37,9 @@ using TangentForm = TangentFormOf<OrthotropicStiffness>;
 
 namespace tangent_detail {
 
-// X_ij + X_ji = gamma, X_ji - X_ij = +-a: each off-diagonal entry of X meets one of each.
+// A shear component: gamma = X_ij + X_ji and +-a = X_ji - X_ij.
 struct Shear {
-  int gamma, a, plus, minus;  // plus: the entry of X with +a
+  int gamma, a, plus, minus;  // indices; plus and minus: the entries of X (column-major) in which a has this sign
 };
 inline constexpr std::array<Shear, 3> kShears{{{3, 8, 1, 3}, {4, 6, 5, 7}, {5, 7, 6, 2}}};
 
@@ -73,7 +73,7 @@ template <class C, class T>
   return out;
 }
 
-// Takes H of expand(), which acts on R^T dF and gives R^T dP, to what acts on dF and gives dP.
+// Rotates the matrix H of expand(): it maps R^T dF to R^T dP before and dF to dP afterwards.
 template <class T>
 [[gnu::always_inline]] inline void turn_to_space(const Mat3T<T>& R, Mat9T<T>& H) {
   const auto turn = [&R](auto&& a, auto&& b, auto&& c) {

@@ -1,12 +1,13 @@
-// The quadratic tetrahedron: corners 0 to 3 as those of the linear one, and a node on each edge, in the order of
-// kEdges. With L_0 to L_3 the barycentric coordinates (Zienkiewicz & Taylor 2000, vol. 1, 8.8):
+// The quadratic tetrahedron: corners 0 to 3 as in tet4.h, then one node per edge in the order of kEdges. With the
+// barycentric coordinates L_0 to L_3 (Zienkiewicz & Taylor 2000, vol. 1, 8.8):
 //
 //   N_i = L_i (2 L_i - 1) at corners,  N_ij = 4 L_i L_j on edges.
 //
-// Stiffness: 4 points, degree 2 (Hammer & Stroud 1956): exact for a strain that is linear in an element with straight
-// edges, and of full rank, 4 x 6 = 30 - 6. Masses: Gauss points in collapsed coordinates, degree 7: exact for
-// N_a N_b det J, also where edges are curved. Lumped: the diagonal of the consistent mass of straight edges, scaled to
-// the sum (Hinton, Rock & Zienkiewicz 1976), for the corners' row sums are negative.
+// Stiffness: 4 points, degree 2 (Hammer & Stroud 1956). The rule is exact for linear strain in an element with straight
+// edges, and the stiffness has full rank: 4 x 6 strains = 30 displacements - 6 rigid motions. Mass: Gauss points in
+// collapsed coordinates, degree 7; exact for N_a N_b det J, also for curved edges. Lumped mass: the diagonal of the
+// consistent mass for straight edges, scaled to the total mass (Hinton, Rock & Zienkiewicz 1976), because the row sums
+// of the corners are negative.
 #pragma once
 
 #include <Eigen/LU>
@@ -28,7 +29,7 @@ struct Tet10 {
 
   using Barycentric = Eigen::Vector4d;
   using Values = Eigen::Matrix<double, kNodes, 1>;
-  using Slopes = Eigen::Matrix<double, kNodes, 3>;  // by L_1, L_2, L_3
+  using Slopes = Eigen::Matrix<double, kNodes, 3>;  // derivatives with respect to L_1, L_2, L_3
 
   static Values shape(const Barycentric& L) {
     Values N;
@@ -48,19 +49,19 @@ struct Tet10 {
     return by_L.rightCols<3>().colwise() - by_L.col(0);
   }
 
-  // dX/dL at a place, m: its determinant is six times the volume of an element with straight edges.
+  // dX/dL, m; for straight edges its determinant is six times the element's volume.
   static Mat3 jacobian(const NodeDifferences<kNodes>& rest, const Barycentric& L) {
     return rest * shape_slopes(L).bottomRows<kNodes - 1>();
   }
 
   static Barycentric place(int point) {
-    static constexpr double root = 2.23606797749979;  // of 5
+    static constexpr double root = 2.23606797749979;  // sqrt(5)
     Barycentric L = Barycentric::Constant((5 - root) / 20);
     L[point] = (5 + 3 * root) / 20;
     return L;
   }
 
-  // The nodes and all places where stiffness and masses are integrated.
+  // The places where the Jacobian is checked: nodes, and integration points of stiffness and mass.
   static const std::vector<Barycentric>& checked_places() {
     static const std::vector<Barycentric> all = [] {
       std::vector<Barycentric> places;
@@ -81,7 +82,8 @@ struct Tet10 {
 
   static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * shape(place(p)); }
 
-  // A linear function is sum L_i(node) c_i with the values c at the corners, and sum L_i(point) c_i at the points.
+  // Extrapolates linear functions: one with values c_i at the corners is sum L_i(node) c_i at a node and sum L_i(point)
+  // c_i at a point.
   static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
     Eigen::Matrix<double, kNodes, 4> at_nodes = Eigen::Matrix<double, kNodes, 4>::Zero();
     Eigen::Matrix4d at_points;

@@ -1,5 +1,4 @@
-// The linear tetrahedron: constant gradients, one point.
-// Nodes 0 to 3 with (x1 - x0) . ((x2 - x0) x (x3 - x0)) > 0.
+// The linear tetrahedron: constant gradients, one point. Nodes 0 to 3 with (x1 - x0) . ((x2 - x0) x (x3 - x0)) > 0.
 #pragma once
 
 #include "lib/element/element.h"
@@ -11,7 +10,7 @@ struct Tet4 {
   static constexpr int kNodes = 4, kPoints = 1, kDegree = 1;
   static constexpr int kVtkCellType = 10;  // VTK_TETRA
   static constexpr std::array<double, kNodes> kLumpedShares{0.25, 0.25, 0.25, 0.25};
-  static constexpr double kLumpedToConsistent = 5;  // m/4 against the smallest eigenvalue of the consistent mass, m/20
+  static constexpr double kLumpedToConsistent = 5;  // m/4 over the smallest eigenvalue of the consistent mass, m/20
 
   static ElementPoint<kNodes> point(int, const NodeDifferences<kNodes>& edges, const Mat3& Q) {
     return {edges.inverse() * Q, edges.determinant() / 6};
@@ -26,7 +25,7 @@ struct Tet4 {
     return density * a.dot(b.cross(c)) / 6;
   }
 
-  // m/20 (1 + delta_ab).
+  // M_ab = m/20 (1 + delta_ab) for the element's mass m.
   static Eigen::Matrix4d consistent_mass(const ElementNodes<kNodes>& X, double density) {
     const double m = mass(X, density);
     Eigen::Matrix4d M = Eigen::Matrix4d::Constant(m / 20);

@@ -7,7 +7,8 @@ namespace orthodyn {
 
 struct Tri6 {
   static constexpr int kNodes = 6, kTangentPoints = 7;
-  // The diagonal of the mass matrix of a plane triangle, scaled to sum 1: the integrals of corners' N_a are zero.
+  // The diagonal of the mass matrix of a plane triangle, scaled to sum 1, because the integrals of the corners' N_a are
+  // zero.
   static constexpr double kCorner = 1.0 / 19, kMiddle = 16.0 / 57;
   static constexpr std::array<double, kNodes> kNodeShares{kCorner, kCorner, kCorner, kMiddle, kMiddle, kMiddle};
 

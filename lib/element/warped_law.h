@@ -1,8 +1,8 @@
-// The force of warped stiffness: P = R sigma (Mueller & Gross 2004; Li & Barbic 2014; Vega FEM).
+// The warped-stiffness force: P = R sigma with sigma = C:(S - I) (Mueller & Gross 2004; Li & Barbic 2014; Vega FEM).
 //
-// Kept for comparison: for anisotropic C it is not the gradient of any energy and exerts a net
-// torque. energy() is W(S - I), which this force does not conserve. Tangents: R K R^T (symmetric,
-// approximate), or the exact derivative of this force, which is not symmetric.
+// For comparison only: for anisotropic C the force has no energy and exerts a net torque. energy() returns W(S - I),
+// which is not conserved. The tangent is either R K R^T with the stiffness K at rest (symmetric, approximate) or the
+// exact, unsymmetric derivative.
 #pragma once
 
 #include "lib/element/corotational_law.h"
@@ -59,7 +59,7 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
     return {p.R, as_tangent(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
   }
 
-  // d(R sigma) = R ([w] sigma + C : dS), dS = e - N w, w = G^-1 a.
+  // d(R sigma) = R ([w] sigma + C : dS) with w = G^-1 a and dS = e - sym([w] S); a and e as in tangent_form.h.
   Form unsymmetric_form(const Polar<double>& p, const Mat3& strain) const {
     Form form = gauss_newton_form(p, as_tangent(C_));
     const Mat3 sigma = C_.stress(strain);

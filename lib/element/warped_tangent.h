@@ -1,4 +1,5 @@
-// Which tangent the warped force has (warped_law.h): R K R^T, or its exact derivative, which is unsymmetric.
+// The tangent of the warped force (warped_law.h): R K R^T with the stiffness K at rest, or the exact, unsymmetric
+// derivative.
 #pragma once
 
 namespace orthodyn {

@@ -1,5 +1,5 @@
-// Loops over the elements of a region in batches, as many at a time as a Batch has lanes. Groups of batches run in
-// parallel; results are the same for any number of threads.
+// Loops over the elements of a region in batches of Batch::kLanes. Groups of batches run in parallel; results do not
+// depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -18,17 +18,17 @@ class BatchLoops {
  public:
   static constexpr int kLanes = Batch::kLanes;
 
-  // Over `cells` of the mesh, in this order, which is by place (element_groups.h).
+  // `cells`: the region's cells of the mesh, in the order of by_place() (element_groups.h).
   BatchLoops(const ElementMesh& mesh, const std::vector<int>& cells)
       : size_(static_cast<int>(cells.size())), groups_(mesh, cells) {}
 
-  // visit(batch) for all, where something is added to nodes.
+  // Calls visit(batch) for all batches; visit may add to values at the nodes of its batch.
   template <class Visit>
   void for_each_batch(Visit&& visit) const {
     groups_.for_each([&](const ElementGroups::Range& group) { in_group(group, visit); });
   }
 
-  // visit(k) for the elements of one batch, or for all.
+  // Calls visit(k) for the elements of one batch, or for all elements.
   template <class Visit>
   void for_each_of(int batch, Visit&& visit) const {
     for (int k = batch * kLanes; k < std::min(size_, (batch + 1) * kLanes); ++k) visit(k);
@@ -38,7 +38,7 @@ class BatchLoops {
     for_each_batch([&](int b) { for_each_of(b, visit); });
   }
 
-  // of_batch(batch), a number, summed over all.
+  // Sum of of_batch(batch) over all batches.
   template <class OfBatch>
   double sum(OfBatch&& of_batch) const {
     const auto of_group = [&](const ElementGroups::Range& group) {
@@ -51,7 +51,7 @@ class BatchLoops {
     return total;
   }
 
-  // The batch of the smallest of_batch(batch), and that; -1 without elements, or where none is less than infinity.
+  // The smallest value of of_batch(batch), and the number of its batch; infinity and -1 if there is no finite value.
   struct Smallest {
     double value;
     int batch;

@@ -4,13 +4,13 @@
 #include <limits>
 
 #include "lib/core/errors.h"
+#include "lib/fem/subdomain.h"
 
 namespace orthodyn {
 
 namespace {
 
-// For each node its neighbours in ascending order, itself included; only those >= itself if
-// `lower`.
+// Neighbours of each node, including the node, in ascending order. With `lower`, only those >= the node.
 class Neighbours {
  public:
   Neighbours(const Cells& cells, const NodePairs& further, int num_nodes, bool lower)
@@ -39,7 +39,7 @@ class Neighbours {
     for (const auto& [a, b] : further) {
       if (!lower || a >= b) f(a, b);
       if (!lower || b >= a) f(b, a);
-      f(a, a), f(b, b);  // a copy of another rank's node has no cell here
+      f(a, a), f(b, b);  // copies of other ranks' nodes may have no cell here
     }
   }
 
@@ -100,6 +100,29 @@ void BlockPattern::find_columns() {
   }
 }
 
+void BlockPattern::set_share(const Subdomain& subdomain) {
+  const auto has_unknown = [&](int node) {
+    const auto& dofs = dofs_.node(node);
+    return *std::max_element(dofs.begin(), dofs.end()) >= 0;
+  };
+  const Ranks& ranks = subdomain.ranks();
+  PatternShare share{&ranks, dofs_.num_dofs(), 0, 0, {}, 0};
+  for (int i = 0; i < dofs_.num_owned_nodes(); ++i)
+    if (has_unknown(i)) ++share.owned_points;
+  share.first_point = ranks.sum_before(share.owned_points);
+  share.unknowns = static_cast<std::int64_t>(ranks.sum(share.owned));
+
+  NodalVector numbers = NodalVector::Zero(3, dofs_.num_nodes());  // integers; doubles are exact up to 2^53
+  auto next = static_cast<double>(share.first_point);
+  for (int i = 0; i < dofs_.num_owned_nodes(); ++i)
+    if (has_unknown(i)) numbers(0, i) = next++;
+  subdomain.copy_from_owners(numbers);
+  share.row.reserve(static_cast<std::size_t>(dofs_.num_dofs_here()));
+  for (const int coordinate : pattern_.coordinate)
+    share.row.push_back(3 * static_cast<std::int64_t>(numbers(0, coordinate / 3)) + coordinate % 3);
+  pattern_.share = std::make_shared<const PatternShare>(std::move(share));
+}
+
 int BlockPattern::offset(int a, int b) const {
   const auto first_free = [&](int node) {
     for (const int dof : dofs_.node(node))
@@ -116,7 +139,7 @@ int BlockPattern::offset(int a, int b) const {
 void BlockPattern::add(int a, int b, int offset, const Mat3& block, double* values) const {
   const auto& rows = dofs_.node(a);
   const auto& columns = dofs_.node(b);
-  int shift = offset;  // of a's first row, in this column
+  int shift = offset;  // position of a's first row in this column
   for (int c = 0; c < 3; ++c) {
     const int column = columns[static_cast<std::size_t>(c)];
     if (column < 0) continue;
@@ -127,7 +150,8 @@ void BlockPattern::add(int a, int b, int offset, const Mat3& block, double* valu
       if (symmetric() && row < column) continue;  // above the diagonal of a diagonal block
       *at++ += block(r, c);
     }
-    // The lower triangle loses one leading entry per column; a diagonal block starts at its own.
+    // In the lower triangle, b's next column starts one row lower, so that a's first row moves up. In a diagonal block,
+    // each column starts with its diagonal entry.
     if (symmetric() && a != b) --shift;
   }
 }

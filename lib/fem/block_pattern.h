@@ -1,5 +1,5 @@
-// The sparsity pattern of a mesh, and where the 3x3 block of two nodes lies in it. Const functions may run at the same
-// time, add() on different values.
+// Sparsity pattern of a mesh with a 3x3 block for each pair of coupled nodes. Const functions are thread-safe if they
+// add to different entries of `values`.
 #pragma once
 
 #include <utility>
@@ -11,36 +11,38 @@
 
 namespace orthodyn {
 
+class Subdomain;
+
 using NodePairs = std::vector<std::pair<int, int>>;
 
 class BlockPattern {
  public:
-  // Couples the nodes of each cell, and the further pairs. `dofs` must outlive the pattern. Throws ConfigError if the
-  // matrix had more than 2^31 entries.
+  // Couples the nodes of each cell, and the node pairs in `further`. `symmetric`: store the lower triangle only. `dofs`
+  // must outlive the pattern. Throws ConfigError for more than 2^31 entries.
   BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetric, const NodePairs& further = {});
 
   const Pattern& pattern() const { return pattern_; }
-  // Makes it one of those of several ranks.
-  void set_share(PatternShare share) { pattern_.share = std::make_shared<const PatternShare>(std::move(share)); }
+  // For several ranks: numbers the rows of the global matrix, rank by rank. Collective.
+  void set_share(const Subdomain& subdomain);
   bool symmetric() const { return pattern_.symmetric; }
 
-  // Where node a's rows begin in the first column of node b, relative to that column's start.
-  // Precondition: the nodes are coupled; for a symmetric pattern a >= b. Meaningless if either has no unknowns.
+  // Position of node a's first row in the first column of node b, relative to the start of the column. Precondition:
+  // the nodes are coupled; a >= b in a symmetric pattern. The result is unspecified if either node has no unknowns.
   int offset(int a, int b) const;
 
-  // values[block (a, b)] += block. `offset` is offset(a, b).
+  // Adds a 3x3 block to block (a, b) of the matrix; `offset` is offset(a, b).
   void add(int a, int b, int offset, const Mat3& block, double* values) const;
 
-  // In a symmetric pattern: whether all coordinates of a node are unknowns.
+  // Whether all coordinates of a node are unknowns. Only for symmetric patterns, like the two functions below.
   bool is_free(int node) const { return columns_[static_cast<std::size_t>(node)].length > 0; }
-  // add() below the block of a free node b in a symmetric pattern, the other node being free, too. Without a branch;
-  // entry (r, c) of the block is at block[r rows + c columns].
+  // Branch-free add() to block (a, b), a > b, of two free nodes. Entry (r, c) of the block is at block[r * rows + c *
+  // columns].
   void add_free(int b, int offset, const double* block, int rows, int columns, double* values) const;
-  // The same for the diagonal block of a free node.
+  // Likewise for the lower triangle of the diagonal block of a free node.
   void add_free_diagonal(int node, const double* block, int rows, int columns, double* values) const;
 
  private:
-  // Of a free node in a symmetric pattern: its first column, and how many entries that has; else 0.
+  // Start and length of the first column of a free node in a symmetric pattern; 0 for other nodes.
   struct Columns {
     int start = 0, length = 0;
   };
@@ -52,7 +54,8 @@ class BlockPattern {
   std::vector<Columns> columns_;
 };
 
-// The second and third column of a node have one and two entries less: those above the diagonal.
+// A node's second and third columns are one and two entries shorter than its first, because entries above the diagonal
+// are not stored.
 inline void BlockPattern::add_free(int b, int offset, const double* block, int rows, int columns,
                                    double* values) const {
   const auto [start, length] = columns_of(b);

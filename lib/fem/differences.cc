@@ -7,7 +7,7 @@
 namespace orthodyn {
 
 DifferenceWeights::DifferenceWeights(double x) {
-  // c[m][k] is the weight of point k in the m-th derivative by the points so far (Fornberg's recursion).
+  // c[m][k]: weight of point k in the m-th derivative, using points 0..n (Fornberg's recursion).
   std::array<std::array<double, kPoints>, 3> c{};
   c[0][0] = 1;
   double c1 = 1;
@@ -29,7 +29,7 @@ DifferenceWeights::DifferenceWeights(double x) {
   second = c[2];
 }
 
-// Over a part of its limits a function is close to a cubic: a third of a period.
+// In one part of the step limits, the function is close to a cubic, so that the part covers about a third of a period.
 DifferenceStep::DifferenceStep(StepLimits limits, double start, double end)
     : longest_(end > start ? (end - start) / 1000 : 1), limits_(std::move(limits)) {}
 

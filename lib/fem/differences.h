@@ -1,9 +1,10 @@
-// First and second derivative of a function of time by differences on nine equidistant points, exact for
-// polynomials of degree eight; weights by Fornberg (1988), Generation of finite difference formulas on
-// arbitrarily spaced grids, Math. Comp. 51.
+// First and second time derivative of a function by finite differences on nine equidistant points, exact for
+// polynomials of degree eight. Weights: Fornberg (1988), Generation of finite difference formulas on arbitrarily spaced
+// grids, Math. Comp. 51.
 //
-// For sin(w t) with t in the middle of the points, h apart, the errors relative to w and w^2 are about
-// (w h)^8/630 + eps/(w h) and (w h)^8/3150 + 4 eps/(w h)^2: below 1e-10 for periods of 60 to 1000 steps.
+// For sin(w t), evaluated in the middle of points with spacing h, the errors of the first and second derivative
+// relative to w and w^2 are about (w h)^8/630 + eps/(w h) and (w h)^8/3150 + 4 eps/(w h)^2, with the machine epsilon
+// eps. Both are below 1e-10 for 60 to 1000 points per period.
 #pragma once
 
 #include <array>
@@ -13,12 +14,12 @@
 
 namespace orthodyn {
 
-// The step of the differences, s: a given one, or one chosen at each time so that the function's period about that time
-// has 60 to 1000 steps.
+// Spacing of the points (s): either given, or chosen at each time so that 60 to 1000 points cover the local period of
+// the function.
 class DifferenceStep {
  public:
   explicit DifferenceStep(double given) : longest_(given) {}
-  // limits: of the function between start and end, s.
+  // `limits`: step limits of the function from `start` to `end` (s).
   DifferenceStep(StepLimits limits, double start, double end);
   double at(double t) const;
 
@@ -32,21 +33,21 @@ struct Differences {
   T first, second;
 };
 
-// Weights of the two derivatives at x, for the values at 0, 1, ..., 8.
+// Weights of the first and second derivative at x for function values at 0, 1, ..., 8.
 struct DifferenceWeights {
   explicit DifferenceWeights(double x);
   static constexpr std::size_t kPoints = 9;
   std::array<double, kPoints> first, second;
 };
 
-// Nine points about t, no further apart than `step` and all on t's side of every kink; at a kink to its right.
+// Nine points around t, at most `step` apart, with no kink between them. If t is a kink, the points lie to its right.
 struct SmoothStretch {
   SmoothStretch(double t, double step, const std::vector<double>& kinks);
   double point(std::size_t k) const { return begin + static_cast<double>(k) * h; }
   double begin, h;
 };
 
-// T is a number or a matrix of fixed size.
+// First and second derivative of f at t. T is a number or a matrix of fixed size.
 template <class T, class F>
 Differences<T> smooth_differences(const F& f, double t, double step, const std::vector<double>& kinks) {
   const SmoothStretch at(t, step, kinks);

@@ -11,7 +11,7 @@ DofMap::DofMap(int num_nodes, const std::vector<bool>& clamped, int owned)
   }
 }
 
-// visit(coordinate, node, unknown) for the unknowns of the first `nodes` nodes.
+// Calls visit(component, node, dof) for the unknowns of the first `nodes` nodes.
 template <class Visit>
 void DofMap::for_each(int nodes, Visit&& visit) const {
   for (int i = 0; i < nodes; ++i)

@@ -1,7 +1,7 @@
-// Which coordinates of which nodes are unknowns. Clamped coordinates are no part of the system.
+// Numbers the unknowns: the coordinates of all nodes that are not clamped.
 //
-// Of several ranks each has nodes of its own, and after them copies of other ranks' nodes (subdomain.h). The copies'
-// coordinates have numbers as well, for matrices; vectors of unknowns have those of its own nodes alone.
+// With several ranks, each rank has its own nodes followed by copies of other ranks' nodes (subdomain.h). Unknowns of
+// copies are numbered too, for matrices; vectors of unknowns hold only those of the rank's own nodes.
 #pragma once
 
 #include <array>
@@ -11,29 +11,28 @@
 
 namespace orthodyn {
 
-using NodalVector = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // a column per node
+using NodalVector = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // one column per node
 
 class DofMap {
  public:
-  // clamped[3 * node + component]
+  // clamped[3 * node + component]: whether this coordinate is clamped.
   DofMap(int num_nodes, const std::vector<bool>& clamped) : DofMap(num_nodes, clamped, num_nodes) {}
-  // The first `owned` nodes are this rank's.
+  // The first `owned` nodes belong to this rank.
   DofMap(int num_nodes, const std::vector<bool>& clamped, int owned);
 
   int num_nodes() const { return static_cast<int>(dof_.size()); }
   int num_owned_nodes() const { return num_owned_nodes_; }
   int num_dofs() const { return num_dofs_; }
-  // The copies' included.
-  int num_dofs_here() const { return num_dofs_here_; }
+  int num_dofs_here() const { return num_dofs_here_; }  // copies included
 
-  // The three unknowns of a node, -1 where clamped; free ones are consecutive.
+  // Indices of a node's unknowns: consecutive, except -1 for clamped coordinates.
   const std::array<int, 3>& node(int i) const { return dof_[static_cast<std::size_t>(i)]; }
 
-  // out = base with the unknowns added to it.
+  // Adds the unknowns to `out`, at the rank's own nodes.
   void add_to(const ConstVectorRef& dofs, NodalVector& out) const;
-  // The free coordinates of a nodal vector.
+  // Sets `dofs` to the free coordinates of `nodal`, at the rank's own nodes.
   void restrict_to(const NodalVector& nodal, VectorRef dofs) const;
-  // The same with those of the copies.
+  // The same two functions for own nodes and copies.
   void add_here_to(const ConstVectorRef& dofs, NodalVector& out) const;
   void restrict_here_to(const NodalVector& nodal, VectorRef dofs) const;
 

@@ -8,7 +8,7 @@ namespace orthodyn {
 
 namespace {
 
-// Of a unit quaternion.
+// Rotation matrix of a unit quaternion.
 template <class T>
 Mat3T<T> unit_rotation(const T& w, const T& x, const T& y, const T& z) {
   const T two(2), one(1);

@@ -1,6 +1,5 @@
-// The material axes of a region's elements: one rotation for all, or one at each integration point.
-//
-// Those of each point are kept as unit quaternions: 32 bytes instead of 72.
+// Material axes of the elements of a region: one rotation for all, or one per integration point, stored as unit
+// quaternions (32 bytes instead of 72).
 #pragma once
 
 #include <array>
@@ -14,20 +13,21 @@ inline namespace ORTHODYN_LANES {
 
 class ElementAxes {
  public:
-  ElementAxes(const Mat3& all) : all_(all) {}  // NOLINT: a rotation is the axes of all elements
-  // One after the other those at the points of each element. Preconditions: at least one element; rotations.
+  ElementAxes(const Mat3& all) : all_(all) {}  // NOLINT: implicit, one rotation for all elements
+  // `each`: the rotations of the points of the first element, then of the second, and so on. Precondition: at least one
+  // element.
   explicit ElementAxes(const std::vector<Mat3>& each, int points = 1);
 
   bool uniform() const { return packs_.empty(); }
   std::size_t bytes() const { return packs_.capacity() * sizeof(Pack); }
 
-  // At a point of element k: a rotation to round-off whose columns are the directions 1, 2, 3.
+  // Axes at a point of element k: an orthonormal matrix whose columns are the directions 1, 2, 3.
   Mat3 of(int k, int point) const;
 
-  // The mean over the points of element k, for what is told of the whole element.
+  // Mean rotation over the points of element k, for outputs per element.
   Mat3 mean(int k) const;
 
-  // At a point of a batch of elements, Batch::kLanes of them, and copies beyond the last one.
+  // Axes at a point of all elements of a batch; lanes after the last element repeat it.
   Mat3T<Batch> batch(int b, int point) const;
 
  private:
@@ -37,7 +37,7 @@ class ElementAxes {
 
   Mat3 all_ = Mat3::Identity();
   int points_ = 1;
-  std::vector<Pack> packs_;  // of each batch those of its points
+  std::vector<Pack> packs_;  // batch-major, one per point
 };
 
 }  // namespace ORTHODYN_LANES

@@ -1,8 +1,8 @@
-// The elements of one region in batches of as many as a Batch has lanes: nodes and, for each point, shape gradients
-// and volume side by side. The last batch is filled up with copies of the last element, of volume zero: what is added
-// to their nodes stays within its group (element_groups.h).
+// The elements of one region in batches of Batch::kLanes: node numbers and, per point, shape gradients and volume, lane
+// by lane. The last batch is padded with copies of the last element with zero volume. They add nothing, and use only
+// nodes of the last group of elements (element_groups.h).
 //
-// Const functions may run at the same time on different forces. For an element of lib/element.
+// Const functions may run concurrently for elements without a common node, or with different force vectors.
 #pragma once
 
 #include <algorithm>
@@ -25,30 +25,32 @@ class ElementBatches {
   static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes, kPoints = E::kPoints;
   using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
 
-  // `axes` of the elements in the order of `cells`. The mesh may go afterwards.
+  // `axes` are in the order of `cells`. The mesh need not outlive this object.
   ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes);
 
   int size() const { return size_; }
   int num_batches() const { return static_cast<int>(batches_.size()); }
-  // How many lanes of a batch are elements.
+  // Number of elements in a batch, without padding.
   int lanes(int batch) const { return std::min(kLanes, size_ - batch * kLanes); }
   std::size_t bytes() const { return batches_.capacity() * sizeof(One); }
 
-  // Of element k.
+  // Data of element k.
   Nodes nodes(int k) const { return at(k).nodes[lane(k)]; }
   ElementPoint<kNodes> point(int k, int point) const;
-  // Of a whole batch.
+  // Data of a whole batch.
   ElementPoint<kNodes, Batch> points(int batch, int point) const;
 
-  // H Q = (F - I) Q at a point of a whole batch or of one element, from nodal displacements; F_rate Q from velocities.
+  // H Q = (F - I) Q at a point of a batch or of an element, with the material axes as columns of Q. `u`: nodal
+  // displacements; for nodal velocities the result is dF/dt Q.
   Mat3T<Batch> gradients(int batch, int point, const NodalVector& u) const;
   Mat3 gradient(int k, int p, const NodalVector& u) const { return point(k, p).gradient(differences_of(nodes(k), u)); }
 
-  // m^3, zero for the copies.
+  // Volume of a point, m^3; zero for padding.
   Batch volumes(int batch, int point) const { return Batch::load(at_point(batch, point).volume); }
   double volume(int k, int point) const { return at_point(k / kLanes, point).volume[lane(k)]; }
 
-  // Adds -V dPsi/dx (N) of a point of a whole batch or of one element, for the stress P Q (Pa).
+  // Adds the nodal forces -V dPsi/dx (N) of a point of a batch or of an element to f, where V is the point's volume and
+  // Psi the energy density. `P`: the stress times the axes, P Q (Pa).
   void add_forces(int batch, int point, const Mat3T<Batch>& P, NodalVector& f) const;
   void add_force(int k, int point, const Mat3& P, NodalVector& f) const;
 
@@ -122,7 +124,8 @@ auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& u)
   return d;
 }
 
-// The two below are compiled apart from the laws' kernels, with which they would compete for registers.
+// gradients() and add_forces() are compiled separately from the laws' kernels, with which they would compete for
+// registers.
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p,
                                                                           const NodalVector& u) const {

@@ -8,10 +8,10 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kFewestGroups = 4;  // fewer elements are one group: threads would gain nothing
+constexpr int kFewestGroups = 4;  // with fewer groups threads gain nothing
 constexpr int kMostColours = 64;
 
-using Colours = std::uint64_t;  // a bit each
+using Colours = std::uint64_t;  // a set of colours, one bit each
 
 std::vector<Vec3> centres_of(const ElementMesh& mesh) {
   std::vector<Vec3> centres(mesh.cells.size());
@@ -63,7 +63,7 @@ std::vector<int> by_place(const ElementMesh& mesh, std::vector<int> cells) {
 ElementGroups::ElementGroups(const ElementMesh& mesh, const std::vector<int>& cells)
     : num_elements_(static_cast<int>(cells.size())), size_((num_elements_ + kElements - 1) / kElements) {
   if (size_ < kFewestGroups) size_ = 1;
-  std::vector<Colours> taken(mesh.nodes.size(), 0);  // by the groups at each node
+  std::vector<Colours> taken(mesh.nodes.size(), 0);  // colours of the groups at each node
   const auto for_each_node = [&](int group, auto&& visit) {
     for (int k = elements(group).begin; k < elements(group).end; ++k)
       for (const int node : mesh.cells[static_cast<std::size_t>(cells[static_cast<std::size_t>(k)])])
@@ -73,7 +73,7 @@ ElementGroups::ElementGroups(const ElementMesh& mesh, const std::vector<int>& ce
     Colours near = 0;
     for_each_node(group, [&](const Colours& at) { near |= at; });
     const int colour = std::countr_one(near);
-    if (colour == kMostColours) {  // a mesh in which one node belongs to all: no loop in parallel
+    if (colour == kMostColours) {  // too many groups share a node, so that no parallel loop is possible
       size_ = 1;
       break;
     }

@@ -1,6 +1,6 @@
-// Elements in groups that lie together in space, and the groups in colours: groups of one colour share no node, so that
-// loops over them may add to nodes at the same time. Sums at a node run in the order of the colours, whatever the
-// number of threads.
+// Divides elements into spatially compact groups, and the groups into colours. Groups of one colour share no node, so
+// that a parallel loop over them can add to nodes. The order of the sums at a node is that of the colours and does not
+// depend on the number of threads.
 #pragma once
 
 #include <vector>
@@ -10,25 +10,25 @@
 
 namespace orthodyn {
 
-// The cells of a mesh in an order whose groups are compact: by recursive bisection of their bounding box across its
-// longest side.
+// Reorders cells so that consecutive groups are compact: recursive bisection of the bounding box across its longest
+// side.
 std::vector<int> by_place(const ElementMesh& mesh, std::vector<int> cells);
 
 class ElementGroups {
  public:
-  // Of elements in this order.
+  // `cells` in the order of by_place().
   ElementGroups(const ElementMesh& mesh, const std::vector<int>& cells);
 
   int size() const { return size_; }
-  // The elements [begin, end) of a group; begin is a multiple of kElements.
+  // Index range of a group's elements; begin is a multiple of kElements.
   struct Range {
     int begin, end;
   };
   Range elements(int group) const;
-  // Groups by colour.
+  // Group indices per colour.
   const std::vector<std::vector<int>>& colours() const { return colours_; }
 
-  // visit(range) for every group, in parallel, for what is added to nodes: one colour after the other.
+  // Calls visit(range) for every group, in parallel within a colour. Use it for loops that add to nodes.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const std::vector<int>& groups : colours_)
@@ -36,7 +36,7 @@ class ElementGroups {
                    [&](int i) { visit(elements(groups[static_cast<std::size_t>(i)])); });
   }
 
-  // of_group(range) of every group, in parallel.
+  // Results of of_group(range) for every group, computed in parallel.
   template <class OfGroup>
   auto of_each(OfGroup&& of_group) const {
     std::vector<decltype(of_group(Range{}))> all(static_cast<std::size_t>(size_));
@@ -44,7 +44,8 @@ class ElementGroups {
     return all;
   }
 
-  // About 10 us of work, ten times the cost of handing a group to another thread. Whole batches.
+  // Number of elements in a group: about 10 us of work, ten times the cost of handing a group to a thread. A multiple
+  // of Batch::kLanes.
   static constexpr int kElements = 256;
 
  private:

@@ -1,4 +1,4 @@
-// A mesh as elements of one type: what pattern, mass, elasticity and outputs are made from.
+// A mesh of elements of one type.
 #pragma once
 
 #include <utility>
@@ -13,17 +13,18 @@ namespace orthodyn {
 struct ElementMesh {
   const ElementType& type;
   const std::vector<Vec3>& nodes;  // positions at rest, m
-  Cells cells;                     // in the type's order of nodes
+  Cells cells;                     // nodes in the order of the element type
 
-  // `type` and `nodes` must outlive it. Precondition: the cells have as many nodes as the type.
+  // `its_type` and `positions_at_rest` must outlive this object. Precondition: the cells have as many nodes as the
+  // type.
   ElementMesh(const ElementType& its_type, const std::vector<Vec3>& positions_at_rest, Cells its_cells)
       : type(its_type), nodes(positions_at_rest), cells(std::move(its_cells)) {}
 
-  // The tetrahedra of a mesh, which must outlive it.
+  // The tetrahedra of a mesh, which must outlive this object.
   explicit ElementMesh(const TetMesh& mesh)
       : ElementMesh(mesh.order() == 1 ? linear_tetrahedron() : quadratic_tetrahedron(), mesh.nodes, tet_cells(mesh)) {}
 
-  // Of the nodes of one cell, a column each.
+  // Node positions of one cell, one column each.
   ElementType::Nodes positions(std::size_t cell) const {
     ElementType::Nodes X(3, cells.nodes_per_cell());
     for (Eigen::Index a = 0; a < X.cols(); ++a)

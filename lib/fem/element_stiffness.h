@@ -1,17 +1,15 @@
-// The stiffness of an element of n nodes, 3n x 3n as 3x3 blocks, and its way into the matrix.
+// Stiffness of an element with n nodes, as n x n blocks of 3x3.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "lib/element/batch.h"
 #include "lib/element/element.h"
 #include "lib/element/tangent_form.h"
-#include "lib/fem/block_pattern.h"
 
 namespace orthodyn {
 
-// block[a][b]; of a symmetric one b <= a only.
+// block[a][b] couples nodes a and b; for symmetric matrices only the blocks with b <= a are used.
 template <int kNodes, class T = double>
 using ElementBlocks =
     std::array<std::array<Mat3T<T>, static_cast<std::size_t>(kNodes)>, static_cast<std::size_t>(kNodes)>;
@@ -20,7 +18,7 @@ namespace stiffness_detail {
 
 constexpr std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-// sum_n g[n] A(m, n), the three 3x3 blocks of A contracted with the gradient of one node.
+// Returns sum_n g[n] A_mn for m = 0, 1, 2, with the 3x3 blocks A_mn of A and the shape gradient g of one node.
 template <class T, class Gradient>
 [[gnu::always_inline]] inline std::array<Mat3T<T>, 3> contract_right(const Mat9T<T>& A, const Gradient& g) {
   std::array<Mat3T<T>, 3> out;
@@ -33,8 +31,8 @@ template <class T, class Gradient>
 
 }  // namespace stiffness_detail
 
-// Adds to the blocks of nodes 1, 2, ... what one point adds to the stiffness: K_ab = V g_a : A : g_b, N/m, with the
-// tangent moduli A; sets them if it is the first point.
+// Adds the stiffness V g_a . A . g_b (N/m) of one point to K_ab for nodes a, b = 1, 2, ..., with the point's volume V,
+// tangent moduli A and shape gradients g_a. If `first`, sets K_ab instead.
 template <int kNodes, class C, class T>
 [[gnu::noipa]] void add_point_stiffness(const TangentFormOf<C, T>& form, const ElementPoint<kNodes, T>& point,
                                         bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
@@ -55,7 +53,7 @@ template <int kNodes, class C, class T>
   }
 }
 
-// Sets the rows and columns of node 0, whose shape function is 1 minus the sum of the others.
+// Sets the blocks of node 0, whose shape function is 1 minus the sum of the others.
 template <int kNodes, class T>
 void complete(bool symmetric, ElementBlocks<kNodes, T>& K) {
   using stiffness_detail::idx;
@@ -74,78 +72,8 @@ void complete(bool symmetric, ElementBlocks<kNodes, T>& K) {
   K[0][0] = minus_sum([&](int a) { return K[idx(a)][0]; });
 }
 
-// Where the off-diagonal blocks of an element lie in a symmetric pattern. A general pattern is
-// searched at each use: it serves comparisons only, and is not worth the memory.
-template <int kNodes>
-class ElementOffsets {
- public:
-  using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
-
-  ElementOffsets(const Nodes& nodes, const BlockPattern& pattern) {
-    std::size_t pair = 0;
-    for (std::size_t j = 0; j < kNodes; ++j)
-      for (std::size_t i = j + 1; i < kNodes; ++i)
-        offset_[pair++] = pattern.offset(std::max(nodes[i], nodes[j]), std::min(nodes[i], nodes[j]));
-  }
-  // Pairs (i, j) with i > j, i fastest.
-  int operator[](int pair) const { return offset_[static_cast<std::size_t>(pair)]; }
-
- private:
-  std::array<int, static_cast<std::size_t>(kNodes*(kNodes - 1) / 2)> offset_;
-};
-
-// values += the blocks, at the places of these nodes.
-template <int kNodes>
-[[gnu::noipa]] void scatter(const ElementBlocks<kNodes>& blocks, const typename ElementOffsets<kNodes>::Nodes& nodes,
-                            const ElementOffsets<kNodes>& offsets, const BlockPattern& pattern, double* values) {
-  for (std::size_t a = 0; a < kNodes; ++a)
-    pattern.add(nodes[a], nodes[a], pattern.symmetric() ? 0 : pattern.offset(nodes[a], nodes[a]), blocks[a][a], values);
-  int pair = 0;
-  for (std::size_t j = 0; j < kNodes; ++j)
-    for (std::size_t i = j + 1; i < kNodes; ++i, ++pair) {
-      const int a = nodes[i], b = nodes[j];
-      const Mat3& block = blocks[i][j];
-      if (!pattern.symmetric()) {
-        pattern.add(a, b, pattern.offset(a, b), block, values);
-        pattern.add(b, a, pattern.offset(b, a), blocks[j][i], values);
-      } else if (a > b) {
-        pattern.add(a, b, offsets[pair], block, values);
-      } else {
-        pattern.add(b, a, offsets[pair], block.transpose(), values);
-      }
-    }
-}
-
-// scatter() of one lane of a symmetric batch.
-template <int kNodes>
-[[gnu::noipa]] void scatter_lane(const ElementBlocks<kNodes, Batch>& blocks, int lane,
-                                 const typename ElementOffsets<kNodes>::Nodes& nodes,
-                                 const ElementOffsets<kNodes>& offsets, const BlockPattern& pattern, double* values) {
-  constexpr int kNext = Batch::kLanes;  // from an entry of a block to the next
-  const auto entries = [&](std::size_t a, std::size_t b) {
-    return reinterpret_cast<const double*>(&blocks[a][b]) + lane;
-  };
-  for (std::size_t a = 0; a < kNodes; ++a) pattern.add_free_diagonal(nodes[a], entries(a, a), kNext, 3 * kNext, values);
-  int pair = 0;
-  for (std::size_t j = 0; j < kNodes; ++j)
-    for (std::size_t i = j + 1; i < kNodes; ++i, ++pair) {
-      const bool is_below = nodes[i] > nodes[j];  // else its transpose is
-      pattern.add_free(is_below ? nodes[j] : nodes[i], offsets[pair], entries(i, j), is_below ? kNext : 3 * kNext,
-                       is_below ? 3 * kNext : kNext, values);
-    }
-}
-
-// Of one element of a batch.
-template <int kNodes>
-void take_lane(const ElementBlocks<kNodes, Batch>& blocks, bool symmetric, int lane, ElementBlocks<kNodes>& out) {
-  for (std::size_t a = 0; a < kNodes; ++a)
-    for (std::size_t b = 0; b < kNodes; ++b)
-      if (!symmetric || b <= a)
-        for (int i = 0; i < 9; ++i) out[a][b](i) = blocks[a][b](i)[lane];
-}
-
 // sum_a G_a G_a^T / s_a (6x6, 1/m^2), where G_a maps the displacement of node a to the Voigt strain in material axes
-// and s_a are the nodes' shares of the mass.
+// and s_a is the node's share of the element mass.
 template <int kNodes>
 Mat6 strain_gram(const ElementPoint<kNodes>& point,
                  const std::array<double, static_cast<std::size_t>(kNodes)>& shares) {

@@ -1,5 +1,5 @@
-// What the finite element model asks of a kind of element that it does not know when it is compiled. Each kind is
-// ElementTypeOf<E> (element_type_of.h) for an element E of lib/element, in a file of its own.
+// Run-time interface of an element type. Each type is an ElementTypeOf<E> (element_type_of.h) for an element E of
+// lib/element and is defined in a separate file.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  static constexpr int kMostNodes = 10;  // and points: matrices of one element need no allocation
-  // Positions at rest, a column per node, m.
+  static constexpr int kMostNodes = 10;  // of nodes and of points; small matrices need no allocation
+  // Node positions at rest (m), one column each.
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 
   virtual ~ElementType() = default;
@@ -27,30 +27,30 @@ class ElementType {
   virtual int num_nodes() const = 0;
   virtual int vtk_cell_type() const = 0;
 
-  // Where the law is evaluated: a column per integration point, m, at rest.
+  // Positions of the integration points at rest (m), one column each.
   virtual Nodes points(const Nodes& X) const = 0;
 
-  // The first nodes of a cell are its corners; the others lie between two of these each, in this order.
+  // The first nodes of a cell are its corners; the others are edge midpoints, in the order of edges_with_middles().
   virtual int num_corners() const = 0;
   virtual std::span<const std::array<int, 2>> edges_with_middles() const = 0;
 
-  // Element::kDegree and points_to_nodes().
+  // E::kDegree and E::points_to_nodes() of the element E.
   virtual int degree() const = 0;
   virtual Eigen::MatrixXd points_to_nodes() const = 0;
 
-  // Of one element, kg; density in kg/m^3. The lumped masses are positive and sum to density times volume.
+  // Mass of one element (kg) for a density in kg/m^3. Lumped masses are positive, and their sum is density times
+  // volume.
   virtual Vector lumped_mass(const Nodes& X, double density) const = 0;
   virtual Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const = 0;
 
-  // The largest ratio of lumped to consistent kinetic energy of one element.
+  // Largest ratio of lumped to consistent kinetic energy of one element.
   virtual double lumped_to_consistent() const = 0;
 
-  // Elasticity of some cells of a mesh of this type. The pattern must outlive the term, the mesh need not.
+  // Makes the elastic term of a region of a mesh of this type. The pattern must outlive the term, the mesh need not.
   virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                                     const BlockPattern& pattern) const = 0;
 };
 
-// The types there are.
 const ElementType& linear_tetrahedron();
 const ElementType& quadratic_tetrahedron();
 

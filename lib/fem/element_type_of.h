@@ -1,5 +1,5 @@
-// The type of an element E of lib/element: masses, and elasticity compiled for E with every law and stiffness. Heavy
-// to compile: included by the one file that compiles an element.
+// Implements ElementType for an element E of lib/element, with elasticity compiled for every law and stiffness. This
+// header is expensive to compile: include it only in the file that defines the element type.
 #pragma once
 
 #include "lib/element/linear_law.h"

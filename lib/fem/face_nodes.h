@@ -1,4 +1,4 @@
-// The faces of a surface, by the kind that its mesh has.
+// Loops over the faces of a surface, with the face type (linear or quadratic) of the mesh.
 #pragma once
 
 #include <span>
@@ -18,15 +18,15 @@ FaceNodes<F> face_positions(const TetMesh& mesh, std::span<const int> nodes) {
   return X;
 }
 
-// Calls visit(nodes, X) for each face, with its node indices and their positions at rest. Precondition: the mesh has
-// faces of this kind.
+// Calls visit(nodes, X) for each face, with node indices and positions at rest. Precondition: the mesh has faces of
+// type F.
 template <Face F, class Visit>
 void for_each_face_of(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Visit& visit) {
   const Cells faces = face_cells(mesh, triangles);
   for (std::size_t k = 0; k < faces.size(); ++k) visit(faces[k], face_positions<F>(mesh, faces[k]));
 }
 
-// Calls visit.operator()<F>(nodes, X) for the kind that the mesh has.
+// Likewise, calls visit.operator()<F>(nodes, X) with the face type F of the mesh.
 template <class Visit>
 void for_each_face(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Visit& visit) {
   const auto all = [&]<Face F>() {

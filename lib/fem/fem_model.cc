@@ -6,9 +6,6 @@
 #include <utility>
 
 #include "lib/core/parallel.h"
-#include "lib/fem/mean_force.h"
-#include "lib/fem/on_all_ranks.h"
-#include "lib/fem/part_model.h"
 
 namespace orthodyn {
 
@@ -29,28 +26,19 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, con
   x = *parts.rest + u;
 }
 
-namespace {
-
-template <class F>
-void for_each_term(const FemModel::Parts& parts, F&& f) {
-  for (const auto& term : parts.elastic) f(static_cast<const Term&>(*term));
-  for (const auto& term : parts.loads) f(static_cast<const Term&>(*term));
-}
-
-}  // namespace
-
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
   parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic, parts_.subdomain.get());
   if (parts_.subdomain) return;
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
-  const bool pulled = supports_pull(parts_);  // which has no energy
+  const bool pulled = supports_pull(parts_);  // the pull is a force without energy
   if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
-    mean_force_ = std::make_unique<MeanForce>(parts_);
+    mean_force_ = make_mean_force(parts_);
 }
 
 std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
   std::vector<const Term*> terms;
-  for_each_term(parts, [&](const Term& term) { terms.push_back(&term); });
+  for (const auto& term : parts.elastic) terms.push_back(term.get());
+  for (const auto& term : parts.loads) terms.push_back(term.get());
   return terms;
 }
 
@@ -87,11 +75,31 @@ NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& noda
   return sum;
 }
 
+void term_tangents(const FemModel::Parts& parts, const NodalExpansion& nodal, const std::vector<const Term*>& some,
+                   TangentKind kind, Linearization& out) {
+  const auto size = parts.pattern->pattern().row.size();
+  const bool damped = parts.traits.damping_matrix;
+  out.stiffness.assign(size, 0);
+  if (damped) out.damping.assign(size, 0);
+  on_all_ranks(parts.subdomain.get(), [&] {
+    for (const Term* term : some)
+      term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
+  });
+}
+
+void term_mixed_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
+                         const std::vector<const Term*>& some, Linearization& out) {
+  out.stiffness.assign(parts.pattern->pattern().row.size(), 0);
+  on_all_ranks(parts.subdomain.get(), [&] {
+    for (const Term* term : some) term->add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
+  });
+}
+
 bool supports_pull(const FemModel::Parts& parts) { return parts.moved && !parts.mass->lumped(); }
 
 namespace {
 
-// f -= the free part of M x, for an x that is zero at free coordinates.
+// Subtracts the free part of M x from f. Precondition: x is zero at free coordinates.
 void subtract_inertia(const FemModel::Parts& parts, const NodalVector& x, VectorRef f) {
   Vector pull(f.size());
   parts.dofs->restrict_to(parts.support_mass->times(x), pull);
@@ -125,27 +133,14 @@ void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v,
 
 void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                         Linearization& out) const {
-  const auto size = parts_.pattern->pattern().row.size();
-  const NodalExpansion nodal(parts_, t, q, v);
-  out.stiffness.assign(size, 0);
-  if (parts_.traits.damping_matrix) out.damping.assign(size, 0);
-  on_all_ranks(parts_.subdomain.get(), [&] {
-    for_each_term(parts_, [&](const Term& term) {
-      term.add_tangent(nodal.state(), kind, out.stiffness.data(),
-                       parts_.traits.damping_matrix ? out.damping.data() : nullptr);
-    });
-  });
+  term_tangents(parts_, NodalExpansion(parts_, t, q, v), all_terms(parts_), kind, out);
 }
 
 void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                               Linearization& out) const {
   const Vector still = Vector::Zero(q.size());
   const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
-  out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
-  on_all_ranks(parts_.subdomain.get(), [&] {
-    for_each_term(
-        parts_, [&](const Term& term) { term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data()); });
-  });
+  term_mixed_tangents(parts_, before, nodal, all_terms(parts_), out);
 }
 
 void FemModel::combine(const Weights& w, const Linearization& at, double* values) const {
@@ -193,7 +188,7 @@ Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Ve
 
 State FemModel::part(const State& whole) const { return {whole.t, part_of(whole.q), part_of(whole.v)}; }
 
-// About the middle of the nodes, turns in units of the body's size: columns of like length.
+// Rotations are about the mean node position and scaled by the body's size, so that all columns have similar norms.
 Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {
   NodalVector x = *parts_.rest;
   parts_.dofs->add_to(q, x);
@@ -213,8 +208,8 @@ Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {
   return motions;
 }
 
-// The largest frequency of any element bounds that of the mesh (Irons 1971); Gershgorin's circles bound what
-// other terms add.
+// The largest element frequency bounds the frequencies of the mesh (Irons 1971). Gershgorin's circles bound the
+// contributions of other terms.
 double FemModel::frequency_bound() const {
   double largest = 0;
   for (std::size_t k = 0; k < parts_.elastic.size(); ++k)
@@ -244,16 +239,12 @@ std::optional<std::vector<std::string>> FemModel::load_parts() const {
   return loads;
 }
 
-std::unique_ptr<Model> FemModel::only(const std::vector<std::string>& parts) const {
-  return std::make_unique<PartModel>(*this, parts);
-}
-
 std::vector<double> FemModel::breakpoints(double start, double end) const {
   std::vector<double> times;
-  for_each_term(parts_, [&](const Term& term) {
-    const auto more = term.breakpoints(start, end);
+  for (const Term* term : all_terms(parts_)) {
+    const auto more = term->breakpoints(start, end);
     times.insert(times.end(), more.begin(), more.end());
-  });
+  }
   if (parts_.moved) {
     const auto more = parts_.moved->breakpoints(start, end);
     times.insert(times.end(), more.begin(), more.end());
@@ -265,7 +256,7 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
 
 StepLimits FemModel::step_limits(double start, double end) const {
   StepLimits limits;
-  for_each_term(parts_, [&](const Term& term) { limits.add(term.step_limits(start, end)); });
+  for (const Term* term : all_terms(parts_)) limits.add(term->step_limits(start, end));
   const auto& moved = parts_.subdomain ? parts_.moved_everywhere : parts_.moved;
   if (moved) limits.add(moved->step_limits(start, end));
   return limits;
@@ -280,9 +271,9 @@ std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   const auto& mesh = parts_.mesh;
   const auto nodes = mesh.nodes.size();
   std::size_t elements = 0;
-  for_each_term(parts_, [&](const Term& term) { elements += term.bytes(); });
+  for (const Term* term : all_terms(parts_)) elements += term->bytes();
   const auto& pattern = parts_.pattern->pattern();
-  // Displacements, velocities, positions and forces of all nodes, while a force is computed.
+  // Displacements, velocities, positions and forces of all nodes during a force evaluation.
   const std::size_t expansion = 4 * nodes * sizeof(Vec3);
   std::vector<std::pair<std::string, std::size_t>> all = {
       {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int)) +

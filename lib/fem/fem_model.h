@@ -1,10 +1,10 @@
-// A finite element model: mass, terms, clamps and moved supports of one body, as the Model that integrators see.
-// q are the displacements of the free coordinates from the rest shape, m. With a consistent mass the moved
-// coordinates c pull at the free ones f: M_ff a_f = f_f - M_fc a_c.
+// Finite element model of one body, with mass, terms, clamps and moved supports, as the Model that integrators see. q
+// (m) are the displacements of the free coordinates from the rest shape. With a consistent mass, moved coordinates c
+// act on free coordinates f by their inertia: M_ff a_f = F_f - M_fc a_c, with forces F and accelerations a.
 //
-// Thread safety: as any Model; it holds nothing that changes but the factorised mass, which is locked. Forces and
-// tangents throw RecoverableError where a term cannot be evaluated (a deformation gradient that is not finite, a link
-// of length zero).
+// Thread safety: as Model. The factor of the mass and the patches of the stress recovery are set up at first use, under
+// a lock. Forces and tangents throw RecoverableError if a term cannot be evaluated (deformation gradient not finite,
+// link of zero length).
 #pragma once
 
 #include <array>
@@ -16,7 +16,6 @@
 #include "lib/fem/motion/moved_nodes.h"
 #include "lib/fem/stress_recovery.h"
 #include "lib/fem/subdomain.h"
-#include "lib/fem/support_mass.h"
 #include "lib/fem/term.h"
 #include "lib/fem/terms/elastic_term.h"
 #include "lib/mesh/tet_mesh.h"
@@ -24,38 +23,37 @@
 
 namespace orthodyn {
 
-// Held or moved coordinates that have a name, for their reaction.
+// A named set of clamped or moved coordinates whose reaction is an output.
 struct Support {
   std::string name;
   std::vector<int> nodes;
-  std::vector<std::array<bool, 3>> held;  // of each node the coordinates
+  std::vector<std::array<bool, 3>> held;  // which components, per node
 };
 
 class FemModel : public Model {
  public:
-  // Where several ranks hold the model, `mesh` is the whole one, and all else is of this rank's subdomain: nodes, also
-  // those of terms and supports, are numbered as there.
+  // With several ranks, `mesh` is the whole mesh; everything else belongs to this rank's subdomain and uses its node
+  // numbers.
   struct Parts {
     TetMesh mesh;
-    std::unique_ptr<Subdomain> subdomain = {};  // null where the model is not in parts
-    std::vector<int> unknowns = {};             // of each of this rank's its number among all
+    std::unique_ptr<Subdomain> subdomain = {};  // null with one rank
+    std::vector<int> unknowns = {};             // indices of this rank's unknowns in the model on one rank
     std::unique_ptr<DofMap> dofs;
     std::unique_ptr<BlockPattern> pattern;
     std::unique_ptr<Mass> mass;
-    std::unique_ptr<NodalVector> rest;                  // node positions
+    std::unique_ptr<NodalVector> rest;                  // node positions at rest, m
     std::vector<std::unique_ptr<ElasticTerm>> elastic;  // one per region
-    std::vector<double> densities;                      // kg/m^3, of each of these
-    std::vector<std::unique_ptr<Term>> loads;           // everything else
-    std::vector<std::string> load_descriptions = {};    // of these on all ranks; empty where there is one
+    std::vector<double> densities;                      // kg/m^3, parallel to `elastic`
+    std::vector<std::unique_ptr<Term>> loads;           // all other terms
+    std::vector<std::string> load_descriptions = {};    // of `loads`, whole body; empty with one rank
     double mass_damping = 0;                            // 1/s
-    // s, of a static analysis: loads are always those at this time, supports are at rest a second
-    // before and arrive at it.
+    // Static analysis: loads are evaluated at this time (s); supports move during the second before this time.
     std::optional<double> loads_at = {};
-    std::unique_ptr<MovedNodes> moved;                  // null if none
-    std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks
-    std::vector<Support> supports;                      // those whose reactions are wanted
-    std::unique_ptr<SupportMass> support_mass;          // null without either
-    std::unique_ptr<StressRecovery> recovery;           // made by FemModel, with the first nodal stress
+    std::unique_ptr<MovedNodes> moved;                  // null without motions
+    std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks; null with one rank
+    std::vector<Support> supports;                      // supports whose reactions are outputs
+    std::unique_ptr<SupportMass> support_mass;          // null without motions and supports
+    std::unique_ptr<StressRecovery> recovery;           // set by FemModel
     Traits traits;
   };
 
@@ -89,15 +87,15 @@ class FemModel : public Model {
 
   const Parts& parts() const { return parts_; }
 
-  // Of a vector's part the whole, as part_of() takes it apart. Collective.
+  // Inverse of part_of(): assembles the vector of all unknowns from all ranks. Collective.
   Vector whole_of(const Vector& part) const;
 
-  // Between a state of all unknowns, in the order that they have in a model that is not in parts, and this rank's part
-  // of it; the same where the model is not. The first is collective.
+  // Convert a state between this rank's part and all unknowns, in the order of a model on one rank. With one rank, they
+  // return the state unchanged. whole() is collective.
   State whole(const State& state) const;
   State part(const State& whole) const;
 
-  // What it takes, by part: name and bytes. Of the mass what it takes now: more once it is factored.
+  // Memory (bytes) of each component, by name. The factor of the mass is included once it exists.
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
  private:
@@ -107,44 +105,58 @@ class FemModel : public Model {
                       Linearization& out) const override;
 
   Parts parts_;
-  std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy
+  std::unique_ptr<const DiscreteGradient> mean_force_;  // null if a force has no energy, or with several ranks
 };
 
-// All nodes' positions and displacements (m) and velocities (m/s) at a state of the free coordinates.
+// Positions (m), displacements (m) and velocities (m/s) of all nodes for a state of the free coordinates.
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v,
                  double load_factor = 1);
   NodalState state() const { return {t, x, u, u_rate}; }
-  double time;  // of the model, s
-  double t;     // of its loads, s
+  double time;  // of the state, s
+  double t;     // at which loads are evaluated, s
   double load_factor;
   NodalVector u, u_rate, x;
 };
 
-// The forces of all terms on all nodes, N, those of loads times the load factor; of copies of other ranks' nodes they
-// are zero. Collective.
+// Forces of all or of some terms on all nodes (N); loads are multiplied by the load factor. Zero for copies of other
+// ranks' nodes. Collective.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
-// The same of some of them.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,
                         const std::vector<const Term*>& some);
+// Tangents of some terms, as defined by Model::linearize() and linearize_mixed(). The load factor is not applied.
+// Collective.
+void term_tangents(const FemModel::Parts& parts, const NodalExpansion& nodal, const std::vector<const Term*>& some,
+                   TangentKind kind, Linearization& out);
+void term_mixed_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
+                         const std::vector<const Term*>& some, Linearization& out);
 std::vector<const Term*> all_terms(const FemModel::Parts& parts);
-std::vector<std::string> term_names(const std::vector<const Term*>& terms);  // as force_parts() has them
+// Names of the terms, duplicates numbered: "traction on x1 (2)".
+std::vector<std::string> term_names(const std::vector<const Term*>& terms);
+// Names of the parts of the force: terms ("elasticity of region wood"), "mass damping" and "pull of moved supports".
+std::vector<std::string> part_names(const FemModel::Parts& parts);
 
-// What the terms are, for people: on all ranks.
+// Term::description() of all terms, for the whole body.
 std::vector<std::string> term_descriptions(const FemModel::Parts& parts);
 
-// Two forces that are no terms, added to the free forces f, N: mass-proportional damping, and with a consistent mass
-// the inertia -M_fc a_c by which moved nodes pull at free ones. v: free velocities, m/s.
+// Add the forces that are not terms to the forces f (N) on free coordinates: mass-proportional damping, and the inertia
+// force -M_fc a_c of moved nodes. supports_pull(): whether there are moved nodes and the mass is consistent. v: free
+// velocities (m/s).
 void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v, VectorRef f);
 bool supports_pull(const FemModel::Parts& parts);
 void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f);
 
-// The largest quotient of a row sum of stiffness (N/m) and a nodal mass, 1/s^2. Collective.
+// Largest ratio of a node's stiffness row sum (N/m) to its mass, 1/s^2. Collective.
 double largest_quotient(const FemModel::Parts& parts, Vector row_sums);
 
-// What accelerates the free coordinates: their part of these forces, less mass-proportional damping and the
-// pull of moved nodes. v: free velocities.
+// Sets `out` to the net force (N) on the free coordinates: `forces`, mass-proportional damping and the inertia of moved
+// nodes. v: free velocities (m/s).
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
                  const NodalVector& forces, VectorRef out);
+
+// The discrete gradient of the model: the sum of Term::add_mean_force() and of the damping at mid-step. `parts` must
+// outlive the result. mean_force() is thread-safe, and throws RecoverableError if a corotational element is inverted or
+// flat in one of the states.
+std::unique_ptr<const DiscreteGradient> make_mean_force(const FemModel::Parts& parts);
 
 }  // namespace orthodyn

@@ -1,16 +1,12 @@
-// The named fields and scalars of a FemModel.
+// The outputs of a FemModel: fields and scalars by name.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <stdexcept>
 
 #include "lib/fem/fem_state_view.h"
 #include "lib/fem/nodal_fields.h"
-#include "lib/fem/reactions.h"
-#include "lib/fem/whole_fields.h"
 
 namespace orthodyn {
 
@@ -19,22 +15,12 @@ namespace {
 using View = FemStateView;
 using Values = std::vector<double>;
 
-// How per-rank values are reduced. `smallest` and `largest`: by the first value; a second one is the place of the
-// first. `same`: all ranks have the same values.
-enum class Together { sum, smallest, largest, same };
-
-struct Output {
-  OutputInfo info;
-  std::function<Values(const View&)> compute;
-  Together together = Together::sum;
-};
-
 template <class M>
 Values flat(const M& m) {
   return Values(m.data(), m.data() + m.size());
 }
 
-// One value set per cell of the mesh, from its elastic term.
+// Values of all mesh cells, `components` per cell. f writes the values of element k of a term to `out`.
 Values per_cell(const View& view, std::size_t components,
                 const std::function<void(const ElasticTerm&, int k, double* out)>& f) {
   Values out(view.parts().mesh.region_of.size() * components);
@@ -44,8 +30,8 @@ Values per_cell(const View& view, std::size_t components,
   return out;
 }
 
-Output mean_of_cells(const TensorField& tensor) {
-  return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Mean of an element.", tensor.sentence),
+FemOutput mean_of_cells(const TensorField& tensor) {
+  return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Element mean.", tensor.sentence),
            tensor.components},
           [&tensor](const View& view) {
             return per_cell(view, 6, [&](const ElasticTerm& term, int k, double* out) {
@@ -55,33 +41,34 @@ Output mean_of_cells(const TensorField& tensor) {
           }};
 }
 
-constexpr int kAllRegions = -1;
-
-Output at_nodes(const TensorField& tensor, int region = kAllRegions) {
+FemOutput at_nodes(const TensorField& tensor, int region = kAllRegions) {
   return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
            fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
           [&tensor, region](const View& view) { return tensor_at_nodes(view.recovered(), tensor, region); },
-          Together::same};
+          Reduction::none};
 }
 
-Output at_nodes(const DerivedField& derived, int region = kAllRegions) {
+FemOutput at_nodes(const DerivedField& derived, int region = kAllRegions) {
   const auto count = static_cast<int>(std::max<std::size_t>(derived.components.size(), 1));
   return {{derived.name, Location::node, count, derived.unit, derived.sentence, derived.components},
           [&derived, region](const View& view) {
             return derived_at_nodes(view.recovered(), view.parts().elastic, derived, region);
           },
-          Together::same};
+          Reduction::none};
 }
 
-// Of stress and strain at the nodes of one region, or of all.
-std::vector<Output> nodal_outputs(int region) {
-  std::vector<Output> out;
+}  // namespace
+
+std::vector<FemOutput> nodal_outputs(int region) {
+  std::vector<FemOutput> out;
   for (const TensorField& tensor : tensor_fields()) out.push_back(at_nodes(tensor, region));
   for (const DerivedField& derived : derived_fields()) out.push_back(at_nodes(derived, region));
   return out;
 }
 
-// Of each element the energy of the error for its volume, J/m^3.
+namespace {
+
+// Estimated energy of the discretisation error per volume of each element, J/m^3.
 Values mesh_error_density(const View& view) {
   const auto& errors = view.mesh_errors();
   const auto& terms = view.parts().elastic;
@@ -101,7 +88,7 @@ Values mesh_error(const View& view) {
   return out;
 }
 
-Output material_axis(int axis) {
+FemOutput material_axis(int axis) {
   return {{"material_axis_" + std::to_string(axis + 1), Location::cell, 3, "1",
            "Material axis " + std::to_string(axis + 1) + ", rotated with the element."},
           [axis](const View& view) {
@@ -122,8 +109,7 @@ Values angular_momentum(const View& view) {
 double dissipated_power(const View& view) {
   const auto& parts = view.parts();
   double power = parts.mass_damping > 0 ? 2 * parts.mass_damping * view.kinetic_energy() : 0;
-  for (const auto& term : parts.elastic) power += term->dissipation(view.state());
-  for (const auto& term : parts.loads) power += term->dissipation(view.state());
+  for (const Term* term : all_terms(parts)) power += term->dissipation(view.state());
   return power;
 }
 
@@ -134,7 +120,7 @@ double load_power(const View& view) {
   return power;
 }
 
-// The largest force on a node, were the body at rest in this shape.
+// Largest nodal force if the body were at rest in this shape, N.
 double imbalance(const View& view) {
   const auto& parts = view.parts();
   const NodalExpansion& nodal = view.nodal();
@@ -166,9 +152,42 @@ Values largest_speed(const View& view) {
   return {speed, static_cast<double>(subdomain ? subdomain->nodes()[static_cast<std::size_t>(node)] : node)};
 }
 
-Output scalar(const std::string& name, const std::string& unit, const std::string& sentence,
-              const std::function<double(const View&)>& f, Together together = Together::sum) {
-  return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }, together};
+// The force (N) of a support at its node i.
+Vec3 on(const Support& support, const NodalVector& forces, std::size_t i) {
+  Vec3 force = Vec3::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (support.held[i][static_cast<std::size_t>(c)]) force[c] = forces(c, support.nodes[i]);
+  return force;
+}
+
+Vec3 middle_of(const NodalVector& places, const Subdomain* subdomain) {
+  Eigen::Vector4d sums(places.row(0).sum(), places.row(1).sum(), places.row(2).sum(),
+                       static_cast<double>(places.cols()));
+  if (subdomain) subdomain->ranks().sum({sums.data(), 4});
+  return sums.head<3>() / sums[3];
+}
+
+// Resultant of support_forces() on one support (N).
+Vec3 reaction(const Support& support, const NodalVector& forces) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < support.nodes.size(); ++i) sum += on(support, forces, i);
+  return sum;
+}
+
+// Torque (N m) of support_forces() on one support, about the mean of its current node positions.
+Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x,
+                     const Subdomain* subdomain) {
+  const NodalVector places = x(Eigen::all, support.nodes);
+  const Vec3 middle = middle_of(places, subdomain);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < support.nodes.size(); ++i)
+    sum += (places.col(static_cast<Eigen::Index>(i)) - middle).cross(on(support, forces, i));
+  return sum;
+}
+
+FemOutput scalar(const std::string& name, const std::string& unit, const std::string& sentence,
+                 const std::function<double(const View&)>& f, Reduction reduction = Reduction::sum) {
+  return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }, reduction};
 }
 
 const std::vector<std::string>& axis_names() {
@@ -176,8 +195,8 @@ const std::vector<std::string>& axis_names() {
   return names;
 }
 
-std::vector<Output> make_outputs() {
-  std::vector<Output> all = {
+std::vector<FemOutput> make_outputs() {
+  std::vector<FemOutput> all = {
       {{"displacement", Location::node, 3, "m", "Displacement from the rest shape."},
        [](const View& view) { return flat(view.nodal().u); }},
       {{"velocity", Location::node, 3, "m/s", "Velocity."}, [](const View& view) { return flat(view.nodal().u_rate); }},
@@ -196,55 +215,56 @@ std::vector<Output> make_outputs() {
       material_axis(0),
       material_axis(1),
       material_axis(2),
-      {{"mesh_error", Location::cell, 1, "J/m^3", "Estimated elastic energy of the mesh's error, per volume."},
+      {{"mesh_error", Location::cell, 1, "J/m^3", "Estimated elastic energy of the discretisation error, per volume."},
        mesh_error_density},
       scalar("energy.kinetic", "J", "Kinetic energy.", [](const View& view) { return view.kinetic_energy(); }),
-      scalar("energy.elastic", "J", "Elastic energy, that of springs and of contact included.",
+      scalar("energy.elastic", "J", "Elastic energy, including springs and contact.",
              [](const View& view) { return view.energy(EnergyKind::elastic); }),
       {{"energy.mesh_error", Location::global, 2, "J",
-        "Estimated elastic energy of the mesh's error, and the elements' elastic energy."},
+        "Estimated elastic energy of the discretisation error, and the elements' elastic energy."},
        mesh_error},
       scalar("energy.gravitational", "J", "Energy in the gravity field, zero at rest.",
              [](const View& view) { return view.energy(EnergyKind::gravitational); }),
-      scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),
+      scalar("power.dissipated", "W", "Power dissipated by damping.", dissipated_power),
       scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
-      scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
-             imbalance, Together::largest),
-      {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
+      scalar("imbalance", "N", "Largest nodal force if the body were at rest in this shape; 0 in equilibrium.",
+             imbalance, Reduction::maximum),
+      {{"det_f.smallest", Location::global, 2, "1", "Smallest det F, and its element."},
        smallest_det_f,
-       Together::smallest},
-      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."},
+       Reduction::minimum},
+      {{"speed.largest", Location::global, 2, "m/s", "Largest speed, and its node."},
        largest_speed,
-       Together::largest},
-      {{"momentum.linear", Location::global, 3, "kg m/s",
-        "Linear momentum of the free coordinates, and of moved ones."},
+       Reduction::maximum},
+      {{"momentum.linear", Location::global, 3, "kg m/s", "Linear momentum of free and moved coordinates."},
        [](const View& view) { return flat(Vec3(view.momentum().rowwise().sum())); }},
       {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."}, angular_momentum},
   };
-  for (Output& output : all)
+  for (FemOutput& output : all)
     if (output.info.components == 3) output.info.component_names = axis_names();
-  const auto after = std::find_if(all.begin(), all.end(), [](const Output& o) { return o.info.name == "mesh_error"; });
-  std::vector<Output> stresses;
+  const auto after =
+      std::find_if(all.begin(), all.end(), [](const FemOutput& o) { return o.info.name == "mesh_error"; });
+  std::vector<FemOutput> stresses;
   for (const TensorField& tensor : tensor_fields()) stresses.push_back(mean_of_cells(tensor));
-  for (Output& output : nodal_outputs(kAllRegions)) stresses.push_back(std::move(output));
+  for (FemOutput& output : nodal_outputs(kAllRegions)) stresses.push_back(std::move(output));
   all.insert(after, stresses.begin(), stresses.end());
   return all;
 }
 
-const std::vector<Output>& all_outputs() {
-  static const std::vector<Output> all = make_outputs();
+}  // namespace
+
+const std::vector<FemOutput>& all_outputs() {
+  static const std::vector<FemOutput> all = make_outputs();
   return all;
 }
 
-// Of the supports whose reactions are wanted.
-std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
-  std::vector<Output> out;
+std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports) {
+  std::vector<FemOutput> out;
   for (const Support& support : supports) {
     out.push_back(
         {{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body.", axis_names()},
          [&support](const View& view) { return flat(reaction(support, view.support_forces())); }});
-    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes.",
-                    axis_names()},
+    out.push_back({{"torque." + support.name, Location::global, 3, "N m",
+                    "Torque of the support on the body about the mean position of its nodes.", axis_names()},
                    [&support](const View& view) {
                      return flat(
                          reaction_torque(support, view.support_forces(), view.nodal().x, view.parts().subdomain.get()));
@@ -252,8 +272,6 @@ std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
   }
   return out;
 }
-
-}  // namespace
 
 std::vector<OutputInfo> FemModel::outputs() const {
   std::vector<OutputInfo> infos;
@@ -271,66 +289,10 @@ std::unique_ptr<StateView> FemModel::view(const State& state) const {
   return std::make_unique<FemStateView>(parts_, state);
 }
 
-namespace {
-
-// "REGION.FIELD": a field of stress or strain at the nodes of one region, NaN elsewhere.
-std::vector<double> evaluate_in_region(const View& view, const std::string& name) {
-  const auto& terms = view.parts().elastic;
-  for (std::size_t r = 0; r < terms.size(); ++r) {
-    const std::string prefix = terms[r]->region() + ".";
-    if (!name.starts_with(prefix)) continue;
-    for (const Output& output : nodal_outputs(static_cast<int>(r)))
-      if (prefix + output.info.name == name) return output.compute(view);
-  }
-  throw std::logic_error("no output named " + name);
-}
-
-}  // namespace
-
 std::vector<OutputInfo> region_fields() {
   std::vector<OutputInfo> infos;
-  for (const Output& output : nodal_outputs(kAllRegions)) infos.push_back(output.info);
+  for (const FemOutput& output : nodal_outputs(kAllRegions)) infos.push_back(output.info);
   return infos;
-}
-
-namespace {
-
-// NaN of one rank is that of all.
-Values extreme_of_ranks(const Ranks& ranks, Values here, double sign) {
-  if (ranks.any(std::isnan(here[0]))) {
-    here[0] = std::numeric_limits<double>::quiet_NaN();
-    return here;
-  }
-  const double extreme = ranks.max(sign * here[0]);
-  if (here.size() > 1) here[1] = -ranks.max(sign * here[0] == extreme ? -here[1] : -1e300);  // the first place
-  here[0] = sign * extreme;
-  return here;
-}
-
-Values of_all_ranks(const FemModel::Parts& parts, const Output& output, Values here) {
-  const Ranks& ranks = parts.subdomain->ranks();
-  if (output.together == Together::same) return here;
-  if (output.together == Together::smallest) return extreme_of_ranks(ranks, std::move(here), -1);
-  if (output.together == Together::largest) return extreme_of_ranks(ranks, std::move(here), 1);
-  if (output.info.location == Location::node)
-    return on_all_nodes(*parts.subdomain, here, static_cast<std::size_t>(output.info.components),
-                        parts.mesh.nodes.size());
-  ranks.sum(here);
-  return here;
-}
-
-}  // namespace
-
-std::vector<double> FemStateView::evaluate(const std::string& name) const {
-  const auto evaluated = [&](const Output& output) {
-    Values here = output.compute(*this);
-    return parts_.subdomain ? of_all_ranks(parts_, output, std::move(here)) : here;
-  };
-  for (const auto& output : all_outputs())
-    if (output.info.name == name) return evaluated(output);
-  for (const auto& output : reaction_outputs(parts_.supports))
-    if (output.info.name == name) return evaluated(output);
-  return evaluate_in_region(*this, name);
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,8 @@
 #include "lib/fem/fem_state_view.h"
 
-#include "lib/fem/reactions.h"
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace orthodyn {
 
@@ -12,13 +14,59 @@ const T& once(std::optional<T>& kept, F&& compute) {
   return *kept;
 }
 
+// Accelerations of all nodes (m/s^2). Those of free nodes are zero with a lumped mass, which does not couple them with
+// held nodes.
+NodalVector accelerations(const FemModel::Parts& parts, const NodalExpansion& nodal, const NodalVector& forces) {
+  NodalVector a = parts.moved ? parts.moved->accelerations(nodal.time) : NodalVector::Zero(3, nodal.x.cols());
+  if (parts.mass->lumped()) return a;
+  Vector v(parts.dofs->num_dofs()), free(parts.dofs->num_dofs());
+  parts.dofs->restrict_to(nodal.u_rate, v);
+  free_forces(parts, nodal, v, forces, free);
+  parts.mass->solve(free);
+  parts.dofs->add_to(free, a);
+  return a;
+}
+
+// Evaluates an output "REGION.FIELD".
+std::vector<double> evaluate_in_region(const FemStateView& view, const std::string& name) {
+  const auto& terms = view.parts().elastic;
+  for (std::size_t r = 0; r < terms.size(); ++r) {
+    const std::string prefix = terms[r]->region() + ".";
+    if (!name.starts_with(prefix)) continue;
+    for (const FemOutput& output : nodal_outputs(static_cast<int>(r)))
+      if (prefix + output.info.name == name) return output.compute(view);
+  }
+  throw std::logic_error("no output named " + name);
+}
+
+// Largest (sign 1) or smallest (sign -1) value of all ranks, and its location; NaN if the value of any rank is NaN.
+std::vector<double> extreme_of_ranks(const Ranks& ranks, std::vector<double> here, double sign) {
+  if (ranks.any(std::isnan(here[0]))) {
+    here[0] = std::numeric_limits<double>::quiet_NaN();
+    return here;
+  }
+  const double extreme = ranks.max(sign * here[0]);
+  if (here.size() > 1) here[1] = -ranks.max(sign * here[0] == extreme ? -here[1] : -1e300);  // lowest such location
+  here[0] = sign * extreme;
+  return here;
+}
+
+std::vector<double> reduced(const FemModel::Parts& parts, const FemOutput& output, std::vector<double> here) {
+  const Ranks& ranks = parts.subdomain->ranks();
+  if (output.reduction == Reduction::none) return here;
+  if (output.reduction == Reduction::minimum) return extreme_of_ranks(ranks, std::move(here), -1);
+  if (output.reduction == Reduction::maximum) return extreme_of_ranks(ranks, std::move(here), 1);
+  if (output.info.location == Location::node)
+    return parts.subdomain->whole_field(here, static_cast<std::size_t>(output.info.components));
+  ranks.sum(here);
+  return here;
+}
+
 }  // namespace
 
 double FemStateView::energy(EnergyKind kind) const {
   double sum = 0;
-  for (const auto& term : parts_.elastic)
-    if (term->energy_kind() == kind) sum += term->energy(state());
-  for (const auto& term : parts_.loads)
+  for (const Term* term : all_terms(parts_))
     if (term->energy_kind() == kind) sum += term->energy(state());
   return sum;
 }
@@ -47,15 +95,13 @@ double FemStateView::kinetic_energy() const {
 }
 
 const NodalVector& FemStateView::momentum() const {
-  return once(momentum_, [&] { return compute_momentum(); });
-}
-
-NodalVector FemStateView::compute_momentum() const {
-  NodalVector p = NodalVector::Zero(3, nodal_.x.cols());
-  parts_.dofs->add_to(free_momentum(), p);
-  if (!parts_.moved) return p;
-  const NodalVector moved = held_part(*parts_.dofs, nodal_.u_rate), free = nodal_.u_rate - moved;
-  return p + parts_.support_mass->times(moved) + held_part(*parts_.dofs, parts_.support_mass->times(free));
+  return once(momentum_, [&]() -> NodalVector {
+    NodalVector p = NodalVector::Zero(3, nodal_.x.cols());
+    parts_.dofs->add_to(free_momentum(), p);
+    if (!parts_.moved) return p;
+    const NodalVector moved = held_part(*parts_.dofs, nodal_.u_rate), free = nodal_.u_rate - moved;
+    return p + parts_.support_mass->times(moved) + held_part(*parts_.dofs, parts_.support_mass->times(free));
+  });
 }
 
 RecoveredTensors& FemStateView::recovered() const {
@@ -68,7 +114,23 @@ const std::vector<RegionMeshError>& FemStateView::mesh_errors() const {
 }
 
 const NodalVector& FemStateView::support_forces() const {
-  return once(support_forces_, [&] { return orthodyn::support_forces(parts_, nodal_); });
+  return once(support_forces_, [&] {
+    const NodalVector f = term_forces(parts_, nodal_);
+    const NodalVector a = accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate;
+    return held_part(*parts_.dofs, parts_.support_mass->times(a) - f);
+  });
+}
+
+std::vector<double> FemStateView::evaluate(const std::string& name) const {
+  const auto evaluated = [&](const FemOutput& output) {
+    std::vector<double> here = output.compute(*this);
+    return parts_.subdomain ? reduced(parts_, output, std::move(here)) : here;
+  };
+  for (const auto& output : all_outputs())
+    if (output.info.name == name) return evaluated(output);
+  for (const auto& output : reaction_outputs(parts_.supports))
+    if (output.info.name == name) return evaluated(output);
+  return evaluate_in_region(*this, name);
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
-// A state of a FemModel with what its outputs share: each quantity is computed when it is first asked for.
+// A state of a FemModel, and the intermediate results that outputs share. Each result is computed at its first use.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace orthodyn {
 
 class FemStateView : public StateView {
  public:
-  // `parts` must outlive it.
+  // `parts` must outlive this object.
   FemStateView(const FemModel::Parts& parts, const State& state)
       : parts_(parts), nodal_(parts, state.t, state.q, state.v, state.load_factor) {}
 
@@ -22,26 +23,27 @@ class FemStateView : public StateView {
   const NodalExpansion& nodal() const { return nodal_; }
   NodalState state() const { return nodal_.state(); }
 
-  // Sum of the energies of all terms of a kind, J.
+  // Energy of all terms of one kind, J.
   double energy(EnergyKind kind) const;
 
-  // v_f M_ff v_f/2 + v_f M_fc v_c + v_c M_cc v_c/2 for free coordinates f and moved ones c, J.
+  // v_f M_ff v_f/2 + v_f M_fc v_c + v_c M_cc v_c/2 (J) with the velocities v of free coordinates f and moved
+  // coordinates c.
   double kinetic_energy() const;
 
-  // M_ff v_f, and with moved nodes M v; kg m/s.
+  // Nodal momentum, kg m/s: M_ff v_f without moved nodes, else M v.
   const NodalVector& momentum() const;
 
-  // What is recovered from stresses at the points (stress_recovery.h).
+  // Tensors recovered at the nodes, and the mesh error estimated from them (stress_recovery.h).
   RecoveredTensors& recovered() const;
   const std::vector<RegionMeshError>& mesh_errors() const;
 
-  // What the surroundings exert on held and moved nodes (reactions.h), N.
+  // Reactions (N) at clamped and moved coordinates, zero elsewhere: M a + alpha M v - f with the forces f of all terms,
+  // the accelerations a of all nodes and the mass-proportional damping alpha (1/s).
   const NodalVector& support_forces() const;
 
  private:
   Vector free_velocity() const;
   const Vector& free_momentum() const;
-  NodalVector compute_momentum() const;
 
   const FemModel::Parts& parts_;
   NodalExpansion nodal_;
@@ -51,5 +53,26 @@ class FemStateView : public StateView {
   mutable std::optional<RecoveredTensors> recovered_;
   mutable std::optional<std::vector<RegionMeshError>> mesh_errors_;
 };
+
+// How the values of several ranks are combined. `minimum` and `maximum` compare the first value; a second value is its
+// location. `none`: all ranks have the same values.
+enum class Reduction { sum, minimum, maximum, none };
+
+struct FemOutput {
+  OutputInfo info;
+  std::function<std::vector<double>(const FemStateView&)> compute;
+  Reduction reduction = Reduction::sum;
+};
+
+// The outputs that every FemModel has.
+const std::vector<FemOutput>& all_outputs();
+
+// Reaction force and torque of each support; `supports` must outlive the result.
+std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports);
+
+// Outputs of stress and strain at the nodes of one region (index of an elastic term) or of kAllRegions; NaN at other
+// nodes.
+inline constexpr int kAllRegions = -1;
+std::vector<FemOutput> nodal_outputs(int region);
 
 }  // namespace orthodyn

@@ -1,8 +1,9 @@
-// The mass of the free coordinates: lumped (diagonal) or consistent (on the model's pattern).
+// Mass matrix of the free coordinates: lumped (diagonal) or consistent (on the model's pattern).
 //
-//     M_ab = integral of rho N_a N_b dV (consistent),  m_a = rho V s_a of each element with its shares s_a (lumped);
+//     M_ab = integral of rho N_a N_b dV (consistent),  m_a = sum over elements of rho V s_a (lumped)
 //
-// one number, kg, for the three coordinates of a node. Const functions may run at the same time on different vectors.
+// in kg, with density rho, shape functions N_a, element volume V and each node's share s_a of the element mass. The
+// three coordinates of a node have the same mass. Const functions may run concurrently on different vectors.
 #pragma once
 
 #include <memory>
@@ -20,31 +21,31 @@ enum class MassKind { lumped, consistent };
 
 class Mass {
  public:
-  // density[cell] in kg/m^3. `pattern` must outlive the mass; `dofs` need not.
-  // `subdomain`: of a lumped mass of which several ranks have parts; else null.
+  // `density` in kg/m^3, per cell. `pattern` must outlive the mass, `dofs` need not. `subdomain`: this rank's part for
+  // a lumped mass on several ranks, otherwise null.
   Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
        const BlockPattern& pattern, const Subdomain* subdomain = nullptr);
   ~Mass();
 
   bool lumped() const { return kind_ == MassKind::lumped; }
-  // kg, clamped nodes included.
+  // Mass of the body, kg, clamped nodes included.
   double total() const { return total_; }
-  // The lumped masses of all nodes, kg, for either kind; 0 of copies of other ranks' nodes.
+  // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes.
   const Vector& nodal() const { return nodal_; }
-  // The row sums of the whole mass matrix, kg: what a uniform acceleration of all nodes takes. Those of a consistent
-  // mass may be negative.
+  // Row sums of the mass matrix over all nodes, kg: the nodal forces per unit of uniform acceleration. May be negative
+  // for a consistent mass.
   const Vector& row_sums() const { return lumped() ? nodal_ : row_sums_; }
-  // By what squared frequencies with this mass can exceed those with nodal(); 1 if lumped.
+  // Upper bound of squared frequencies with this mass divided by those with the lumped masses nodal(); 1 if lumped.
   double frequency_excess() const { return frequency_excess_; }
-  // Taken, the factorisation included if there is one.
+  // Memory (bytes), including the factor if it exists.
   std::size_t bytes() const;
 
-  // y = M x; x and y differ.
+  // Sets y = M x; x and y must not overlap.
   void multiply(const ConstVectorRef& x, VectorRef y) const;
-  // x <- M^-1 x. The consistent mass is factored at the first call, which throws RunError if it is not positive
-  // definite; calls wait for each other.
+  // Sets x to M^-1 x. The first call factorises a consistent mass and throws RunError if it is not positive definite.
+  // Calls are serialised.
   void solve(VectorRef x) const;
-  // values += factor * M
+  // Adds factor * M to `values`, a matrix on the pattern.
   void add_to(double factor, double* values) const;
 
  private:
@@ -58,10 +59,29 @@ class Mass {
   Vector row_sums_;             // consistent
   std::vector<double> values_;  // consistent
 
-  // Of a consistent mass. A solver has workspace of its own: one solve at a time.
+  // For a consistent mass. The solver has a workspace, so that solves must not overlap.
   mutable std::mutex solving_;
   mutable std::unique_ptr<LinearSolver> solver_;
   mutable bool factored_ = false;
 };
+
+// Those entries M_ij of the mass matrix for which node i or j is held, one number for the three coordinates. They give
+// the inertia of moved nodes and their coupling with free nodes.
+class SupportMass {
+ public:
+  // `density` in kg/m^3, per cell. A node is held if one of its coordinates is not an unknown.
+  SupportMass(const Mass& mass, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs);
+
+  // Returns M x (kg times the unit of x). The result is complete at held nodes; at free nodes, it is complete if x is
+  // zero at free nodes.
+  NodalVector times(const NodalVector& x) const { return x * matrix_; }
+  std::size_t bytes() const;
+
+ private:
+  SparseMatrix matrix_;  // symmetric, both triangles
+};
+
+// Returns x at coordinates that are not unknowns, and zero elsewhere.
+NodalVector held_part(const DofMap& dofs, const NodalVector& x);
 
 }  // namespace orthodyn

@@ -1,19 +1,18 @@
-#include "lib/fem/misfit_energy.h"
-
 #include <optional>
 
+#include "lib/fem/stress_recovery.h"
 #include "lib/material/stiffness.h"
 
 namespace orthodyn {
 
 namespace {
 
-// Of one element, a row for each of its nodes or points.
+// Values of one element, one row per node or point.
 constexpr int kMostNodes = ElementType::kMostNodes;
 using ElementRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, kMostNodes, 6>;
 using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostNodes, kMostNodes>;
 
-// Integrals over the elements of a term of products of stresses that are given at their nodes.
+// Elastic energy of stress fields given at the nodes of a term's elements.
 class EnergyOfStress {
  public:
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
@@ -26,7 +25,7 @@ class EnergyOfStress {
 
   double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
 
-  // The mean of a : C^-1 : b / 2, J/m^3.
+  // Mean of a : C^-1 : b / 2 over the element, J/m^3.
   double density(int k, const ElementRows& a, const ElementRows& b) const {
     const Mat6 compliance = in_space_ ? *in_space_ : compliance_in_space(k);
     const ElementRows of_b = shares(k).lazyProduct(b);
@@ -36,7 +35,7 @@ class EnergyOfStress {
  private:
   static constexpr int kCornersOfTet = 4;
 
-  // Integrals of products of two shapes as shares of the volume: the same for all tetrahedra with straight edges.
+  // Integrals of N_a N_b divided by the volume: the same for all tetrahedra with straight edges.
   ElementMatrix shares(int k) const {
     const ElementType::Nodes X = positions(k);
     return straight_.size() > 0 && is_straight(X) ? straight_ : shares_of(X);
@@ -45,9 +44,9 @@ class EnergyOfStress {
     return mesh_.type.consistent_mass(X, 1) / mesh_.type.lumped_mass(X, 1).sum();
   }
 
-  // Whether edges are so but for round-off.
+  // Whether all edges are straight to round-off.
   bool is_straight(const ElementType::Nodes& X) const {
-    constexpr double kRoundOff = 1e-14;  // of the coordinates
+    constexpr double kRoundOff = 1e-14;  // relative to the coordinates
     Eigen::Index middle = mesh_.type.num_corners();
     for (const auto& [i, j] : mesh_.type.edges_with_middles()) {
       const Vec3 bulge = X.col(middle++) - (X.col(i) + X.col(j)) / 2;
@@ -64,7 +63,7 @@ class EnergyOfStress {
     return X;
   }
 
-  // With sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
+  // The compliance in space axes is T^T C^-1 T, where T rotates stresses from space to material axes.
   Mat6 compliance_in_space(int k) const {
     const Mat6 to_material = stress_rotation(term_.axes_at_rest(k, 0).transpose());
     return to_material.transpose() * compliance_ * to_material;
@@ -75,11 +74,12 @@ class EnergyOfStress {
   const ElementMesh& mesh_;
   const ElasticTerm& term_;
   Mat6 compliance_;
-  std::optional<Mat6> in_space_;  // where it is the same for all elements
-  ElementMatrix straight_;        // of a tetrahedron with straight edges; empty for other elements
+  std::optional<Mat6> in_space_;  // compliance_in_space(), if equal for all elements
+  ElementMatrix straight_;        // shares() of a tetrahedron with straight edges; empty for other elements
 };
 
-// Of the elements of a region, at their nodes: what was computed at their points, and the recovered less that.
+// Stresses of a region at the nodes of its elements: computed() extrapolates from the points, misfit() is recovered
+// minus extrapolated.
 class NodalStresses {
  public:
   NodalStresses(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed)

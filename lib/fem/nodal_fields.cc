@@ -24,21 +24,23 @@ std::vector<double> von_mises(const Vec6& s, const ElasticRegion&) {
                     3 * (square(s[3]) + square(s[4]) + square(s[5])))};
 }
 
-// The largest first.
+// Principal values in descending order.
 std::vector<double> principal(const Vec6& s, const ElasticRegion&) {
   if (!s.allFinite()) return {kNone, kNone, kNone};
   const Vec3 values = symmetric_eigenvalues<3>(full(s));
   return {values[2], values[1], values[0]};
 }
 
-// det F = det S of F = R S.
+// det F = det S, because F = R S; `strain` is S - I.
 std::vector<double> volume_ratio(const Vec6& strain, const ElasticRegion&) {
   return {(Mat3::Identity() + full(strain)).determinant()};
 }
 
-template <double (*exposure)(const Vec6&, const Strength&)>
-std::vector<double> of_strength(const Vec6& s, const ElasticRegion& region) {
-  return {region.strength ? exposure(s, *region.strength) : kNone};
+template <double (*compute)(const Vec6&, const Strength&)>
+DerivedField exposure(const char* name, const char* sentence) {
+  return {name, "1", sentence, "stress_material", {}, true, [](const Vec6& s, const ElasticRegion& region) {
+            return std::vector<double>{region.strength ? compute(s, *region.strength) : kNone};
+          }};
 }
 
 const TensorField& tensor_of(const DerivedField& derived) {
@@ -46,7 +48,7 @@ const TensorField& tensor_of(const DerivedField& derived) {
   return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == derived.tensor; });
 }
 
-// Visits the recovered tensor of each node of a region.
+// Calls visit(node, tensor) for the nodes of a region.
 template <class Visit>
 void for_each_node(RecoveredTensors& recovered, const TensorField& tensor, std::size_t region, Visit&& visit) {
   const auto& [nodes, values] = recovered.of(tensor, region);
@@ -62,7 +64,7 @@ const std::vector<TensorField>& tensor_fields() {
   static const std::vector<TensorField> all{
       {"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)", material,
        [](const PointObservation& o) { return o.strain; }},
-      {"strain_space", "1", "The same strain in space, as the body is turned: xx, yy, zz, xy, yz, zx (tensor shear)",
+      {"strain_space", "1", "Strain S - I rotated with the body into space axes: xx, yy, zz, xy, yz, zx (tensor shear)",
        space, [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }},
       {"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted", space,
        [](const PointObservation& o) { return o.cauchy; }},
@@ -78,31 +80,17 @@ const std::vector<DerivedField>& derived_fields() {
       {"principal_stress", "Pa", "Principal stresses, the largest first.", "stress", three, false, principal},
       {"principal_strain", "1", "Principal strains, the largest first.", "strain", three, false, principal},
       {"nodal_det_f", "1", "Volume ratio det F at the nodes.", "strain", {}, false, volume_ratio},
-      {"max_stress",
-       "1",
-       "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails.",
-       "stress_material",
-       {},
-       true,
-       of_strength<max_stress_exposure>},
-      {"tsai_wu",
-       "1",
-       "Exposure by Tsai and Wu: one over the factor by which the stress may grow; 1 fails.",
-       "stress_material",
-       {},
-       true,
-       of_strength<tsai_wu_exposure>},
-      {"hashin",
-       "1",
-       "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.",
-       "stress_material",
-       {},
-       true,
-       of_strength<hashin_exposure>}};
+      exposure<max_stress_exposure>(
+          "max_stress", "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails."),
+      exposure<tsai_wu_exposure>(
+          "tsai_wu",
+          "Exposure by Tsai and Wu: reciprocal of the factor by which the stress can grow until failure; 1 fails."),
+      exposure<hashin_exposure>(
+          "hashin", "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.")};
   return all;
 }
 
-const StressRecovery::OfRegion& RecoveredTensors::of(const TensorField& tensor, std::size_t region) {
+const StressRecovery::NodalValues& RecoveredTensors::of(const TensorField& tensor, std::size_t region) {
   const auto key = std::make_pair(&tensor, region);
   const auto found = kept_.find(key);
   if (found != kept_.end()) return found->second;

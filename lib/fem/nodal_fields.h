@@ -1,6 +1,5 @@
-// Fields of stress and strain at the nodes, from the recovered tensors (stress_recovery.h): invariants, and how near a
-// material is to failure. They are computed within each region, with its material; a node of several regions has the
-// largest.
+// Fields at the nodes that derive from recovered stress and strain tensors (stress_recovery.h): invariants and failure
+// criteria. Each region is evaluated with its own material; a node of several regions takes the largest value.
 #pragma once
 
 #include <map>
@@ -13,7 +12,7 @@
 
 namespace orthodyn {
 
-// A symmetric tensor of a point: 11, 22, 33, 12, 23, 31.
+// A field of symmetric tensors, with components in the order 11, 22, 33, 12, 23, 31.
 struct TensorField {
   const char *name, *unit, *sentence;
   std::vector<std::string> components;
@@ -25,31 +24,30 @@ struct TensorField {
   }
 };
 
-// strain (material axes), strain_space, stress (space), stress_material.
+// The fields strain (material axes), strain_space, stress (space axes) and stress_material.
 const std::vector<TensorField>& tensor_fields();
 
-// What is made of one of them at a node.
+// A field that is a function of one recovered tensor at a node.
 struct DerivedField {
   const char *name, *unit, *sentence;
   const char* tensor;                   // name of a TensorField
-  std::vector<std::string> components;  // empty for a number
+  std::vector<std::string> components;  // empty for a scalar
   bool needs_strength;
-  // As many values as components, or one; NaN where the region has no strength and needs it.
+  // One value per component; NaN if the region lacks a strength that the field needs.
   std::vector<double> (*of)(const Vec6&, const ElasticRegion&);
 };
 
-// von_mises, principal_stress, principal_strain, nodal_det_f, max_stress, tsai_wu, hashin.
+// The fields von_mises, principal_stress, principal_strain, nodal_det_f, max_stress, tsai_wu and hashin.
 const std::vector<DerivedField>& derived_fields();
 
-// The recovered tensors of one state: each is computed when it is first asked for, and kept for all fields that are
-// made of it. Not thread-safe.
+// The recovered tensors of one state, each computed at its first use and then kept. Not thread-safe.
 class RecoveredTensors {
  public:
-  // Both must outlive it, and what the state refers to.
+  // Both arguments, and the vectors that the state refers to, must outlive this object.
   RecoveredTensors(const StressRecovery& recovery, const NodalState& s) : recovery_(recovery), state_(s) {}
 
-  // Of a region; valid as long as this. Collective where it is computed.
-  const StressRecovery::OfRegion& of(const TensorField& tensor, std::size_t region);
+  // Nodal values of the tensor in one region; the reference stays valid. Collective at the first use.
+  const StressRecovery::NodalValues& of(const TensorField& tensor, std::size_t region);
 
   std::size_t num_nodes() const { return recovery_.num_nodes(); }
   std::size_t num_regions() const { return recovery_.num_regions(); }
@@ -57,16 +55,16 @@ class RecoveredTensors {
  private:
   const StressRecovery& recovery_;
   NodalState state_;
-  std::map<std::pair<const TensorField*, std::size_t>, StressRecovery::OfRegion> kept_;
+  std::map<std::pair<const TensorField*, std::size_t>, StressRecovery::NodalValues> kept_;
 };
 
-// One value set per node of the mesh, NaN off the region. `region`: the index of an elastic term, or -1 for all: of a
-// tensor then the mean of the regions of a node.
+// Values at all nodes of the mesh, node by node; NaN outside the region. `region`: index of an elastic term, or -1 for
+// all regions. At a node of several regions, a tensor is then the mean and a derived field the largest value.
 std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region);
 std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
                                      const DerivedField& derived, int region);
 
-// The fields that can be asked for in one region, as "REGION.FIELD" of a state's view.
+// The fields that are available for each region, as the output "REGION.FIELD".
 std::vector<OutputInfo> region_fields();
 
 }  // namespace orthodyn

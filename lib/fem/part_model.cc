@@ -1,9 +1,9 @@
-#include "lib/fem/part_model.h"
-
+// A FemModel restricted to some of its terms, with the same unknowns and mass. Splitting schemes use one PartModel for
+// each part of the force.
 #include <algorithm>
 #include <cmath>
 
-#include "lib/fem/on_all_ranks.h"
+#include "lib/fem/fem_model.h"
 
 namespace orthodyn {
 
@@ -33,67 +33,91 @@ std::vector<std::string> part_names(const FemModel::Parts& parts) {
   return names;
 }
 
-PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names)
-    : whole_(whole), traits_(whole.traits()) {
-  const auto terms = all_terms(whole.parts());
-  const auto known = term_names(terms);
-  const auto wanted = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (std::size_t k = 0; k < terms.size(); ++k)
-    if (wanted(known[k])) terms_.push_back(terms[k]);
-  elastic_ = std::any_of(known.begin(), known.begin() + static_cast<long>(whole.parts().elastic.size()), wanted);
-  mass_damping_ = wanted(kMassDamping);
-  support_pull_ = wanted(kSupportPull);
-  const auto is_dead = [](const Term* term) { return term->is_dead(); };
-  if (!mass_damping_ && std::all_of(terms_.begin(), terms_.end(), is_dead)) traits_.linear = true;
-}
+namespace {
 
-void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
-  const NodalExpansion nodal(whole_.parts(), t, q, v);
-  whole_.parts().dofs->restrict_to(term_forces(whole_.parts(), nodal, terms_), f);
-  if (mass_damping_) add_mass_damping(whole_.parts(), nodal, v, f);
-  if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
-}
+class PartModel : public Model {
+ public:
+  // `names` are names from part_names(). `whole` must outlive this object.
+  PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole), traits_(whole.traits()) {
+    const auto terms = all_terms(whole.parts());
+    const auto known = term_names(terms);
+    const auto wanted = [&](const std::string& name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      if (wanted(known[k])) terms_.push_back(terms[k]);
+    elastic_ = std::any_of(known.begin(), known.begin() + static_cast<long>(whole.parts().elastic.size()), wanted);
+    mass_damping_ = wanted(kMassDamping);
+    support_pull_ = wanted(kSupportPull);
+    const auto is_dead = [](const Term* term) { return term->is_dead(); };
+    if (!mass_damping_ && std::all_of(terms_.begin(), terms_.end(), is_dead)) traits_.linear = true;
+  }
 
-void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                         Linearization& out) const {
-  const auto size = pattern().row.size();
-  const bool damped = traits().damping_matrix;
-  const NodalExpansion nodal(whole_.parts(), t, q, v);
-  out.stiffness.assign(size, 0);
-  if (damped) out.damping.assign(size, 0);
-  on_all_ranks(whole_.parts().subdomain.get(), [&] {
-    for (const Term* term : terms_)
-      term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
-  });
-}
+  int num_dofs() const override { return whole_.num_dofs(); }
+  const Ranks* ranks() const override { return whole_.ranks(); }
+  Eigen::Index num_dofs_of_all() const override { return whole_.num_dofs_of_all(); }
+  Vector part_of(const Vector& all) const override { return whole_.part_of(all); }
+  // Traits of the whole model; also linear if all parts are dead loads.
+  const Traits& traits() const override { return traits_; }
 
-void PartModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                               Linearization& out) const {
-  const Vector still = Vector::Zero(q.size());
-  const NodalExpansion before(whole_.parts(), t_before, q_before, still), nodal(whole_.parts(), t, q, still);
-  out.stiffness.assign(pattern().row.size(), 0);
-  on_all_ranks(whole_.parts().subdomain.get(), [&] {
-    for (const Term* term : terms_) term->add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
-  });
-}
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
+    const NodalExpansion nodal(whole_.parts(), t, q, v);
+    whole_.parts().dofs->restrict_to(term_forces(whole_.parts(), nodal, terms_), f);
+    if (mass_damping_) add_mass_damping(whole_.parts(), nodal, v, f);
+    if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
+  }
 
-// The whole model's, but for the mass damping that is not among these parts.
-void PartModel::combine(const Weights& w, const Linearization& at, double* values) const {
-  const auto& parts = whole_.parts();
-  const double dropped = mass_damping_ ? 0 : w.damping * parts.mass_damping;
-  whole_.combine({w.mass - dropped, w.damping, w.stiffness}, at, values);
-}
+  const Pattern& pattern() const override { return whole_.pattern(); }
 
-double PartModel::frequency_bound() const {
-  if (elastic_) return 0;
-  const Mass& mass = *whole_.parts().mass;
-  Vector row_sums = Vector::Zero(mass.nodal().size());
-  for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
-  return std::sqrt(mass.frequency_excess() * largest_quotient(whole_.parts(), std::move(row_sums)));
-}
+  // Like that of the whole model, but without mass damping if this is not among the parts.
+  void combine(const Weights& w, const Linearization& at, double* values) const override {
+    const auto& parts = whole_.parts();
+    const double dropped = mass_damping_ ? 0 : w.damping * parts.mass_damping;
+    whole_.combine({w.mass - dropped, w.damping, w.stiffness}, at, values);
+  }
 
-std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }
+  void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const override {
+    whole_.multiply_matrix(values, x, y);
+  }
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
+  void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
+  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return whole_.rigid_motions(q); }
+
+  // Bound from Term::add_stiffness_bound(); 0 (no bound) if elasticity is among the parts.
+  double frequency_bound() const override {
+    if (elastic_) return 0;
+    const Mass& mass = *whole_.parts().mass;
+    Vector row_sums = Vector::Zero(mass.nodal().size());
+    for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
+    return std::sqrt(mass.frequency_excess() * largest_quotient(whole_.parts(), std::move(row_sums)));
+  }
+
+  std::vector<double> breakpoints(double start, double end) const override { return whole_.breakpoints(start, end); }
+  StepLimits step_limits(double start, double end) const override { return whole_.step_limits(start, end); }
+
+ private:
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override {
+    term_tangents(whole_.parts(), NodalExpansion(whole_.parts(), t, q, v), terms_, kind, out);
+  }
+
+  void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                      Linearization& out) const override {
+    const Vector still = Vector::Zero(q.size());
+    const NodalExpansion before(whole_.parts(), t_before, q_before, still), nodal(whole_.parts(), t, q, still);
+    term_mixed_tangents(whole_.parts(), before, nodal, terms_, out);
+  }
+
+  const FemModel& whole_;
+  Traits traits_;
+  std::vector<const Term*> terms_;
+  bool elastic_ = false, mass_damping_ = false, support_pull_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Model> FemModel::only(const std::vector<std::string>& parts) const {
+  return std::make_unique<PartModel>(*this, parts);
+}
 
 }  // namespace orthodyn

@@ -12,17 +12,18 @@ namespace orthodyn {
 
 namespace {
 
-// Of the normal equations' eigenvalues: smaller ones are of polynomials that the points hardly tell from others.
+// Smallest usable eigenvalue of the normal equations, relative to the largest. The points do not determine polynomials
+// with smaller eigenvalues.
 constexpr double kSmallest = 1e-4;
 constexpr int kPointsPerCoefficient = 4;
 constexpr int kMostRings = 3;
-constexpr double kFlat = 1e-6;  // thickness of a flat patch, of its width
+constexpr double kFlat = 1e-6;  // smallest thickness of a patch relative to its width
 
-// Beside the constant.
+// Number of monomials besides the constant.
 constexpr int kLinear = 3, kQuadratic = 9;
 int coefficients(int degree) { return degree == 1 ? kLinear : kQuadratic; }
 
-// x, y, z and for degree 2 their products.
+// The monomials x, y, z, and for degree 2 also their products.
 template <int kCoefficients>
 Eigen::Matrix<double, kCoefficients, 1> monomials(const Vec3& x) {
   Eigen::Matrix<double, kCoefficients, 1> m;
@@ -35,22 +36,22 @@ Vector monomials(const Vec3& x, int degree) {
   return degree == 1 ? Vector(monomials<kLinear>(x)) : Vector(monomials<kQuadratic>(x));
 }
 
-// The elements at each corner.
-class Neighbours {
+// Patches of elements around corner nodes.
+class RegionNeighbours {
  public:
-  Neighbours(const Cells& cells, int corners, std::size_t nodes)
+  RegionNeighbours(const Cells& cells, int corners, std::size_t nodes)
       : cells_(cells), corners_(static_cast<std::size_t>(corners)), at_(nodes), mark_(cells.size(), -1) {
     for (std::size_t k = 0; k < cells.size(); ++k)
       for (const int node : corners_of(k)) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
   }
 
-  // Those around a corner; none of a node that is no corner.
+  // Elements at a corner; empty for other nodes.
   std::vector<int> patch(int node) {
     std::vector<int> all;
     add(node, node, all);
     return all;
   }
-  // With those beside the last patch. False if there are no more.
+  // Adds the neighbours of the patch around `node`. Returns false if there are none.
   bool grow(int node, std::vector<int>& patch) {
     const std::size_t size = patch.size();
     for (std::size_t i = 0; i < size; ++i)
@@ -73,10 +74,10 @@ class Neighbours {
   const Cells& cells_;
   std::size_t corners_;
   std::vector<std::vector<int>> at_;
-  std::vector<int> mark_;  // of each element the last patch that it is in
+  std::vector<int> mark_;  // per element: the last patch that contains it
 };
 
-// Places as the monomials take them, a row each.
+// Monomials at the given places, one row each.
 Eigen::MatrixXd monomials_at(const Eigen::Matrix3Xd& places, const Vec3& centre, const Mat3& to_patch, int degree) {
   Eigen::MatrixXd A(places.cols(), coefficients(degree));
   for (Eigen::Index i = 0; i < A.rows(); ++i)
@@ -94,7 +95,7 @@ Mat3 principal_axes(const Eigen::Matrix3Xd& places) {
   return spread.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
 }
 
-// Fits, and says whether the points are enough, and tell all polynomials apart.
+// Fits the points. The second result tells whether they determine all coefficients.
 std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
   const Mat3 to_patch = principal_axes(places);
   Eigen::MatrixXd A = monomials_at(places, centre, to_patch, degree);
@@ -132,7 +133,7 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& 
         mesh.type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
 
   const int degree = mesh.type.degree();
-  Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
+  RegionNeighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);

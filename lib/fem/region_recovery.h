@@ -1,7 +1,7 @@
-// Values at the nodes of a region from those at its integration points, where stresses are most accurate: around each
-// corner a polynomial of the elements' degree is fitted by least squares (Zienkiewicz & Zhu 1992, Int. J. Numer. Meth.
-// Eng. 33, 1331), over the elements at the corner and, where these are too few, their neighbours. A node in the middle
-// of an edge takes the mean of what its two corners' polynomials are there.
+// Recovers nodal values of a region from its integration points, where stresses are most accurate. Around each corner,
+// a polynomial of the element degree is fitted by least squares (Zienkiewicz & Zhu 1992, Int. J. Numer. Meth. Eng. 33,
+// 1331) to the points of the elements at the corner and, if these are too few, of their neighbours. An edge midpoint
+// takes the mean of the polynomials of its two corners.
 #pragma once
 
 #include <vector>
@@ -12,36 +12,36 @@ namespace orthodyn {
 
 using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-// The polynomial that fits values at some points around a centre: x, y, z and for degree 2 their products, around the
-// means of monomials and values, so that constants are met where the points are too few for more. Coordinates are those
-// of the points' principal axes, each in their spread along it: patches of thin bodies are as well told apart as
-// others.
+// Least-squares polynomial around a centre. Monomials (x, y, z, for degree 2 also their products) and values are taken
+// relative to their means, so that constants are exact even with too few points. Coordinates are along the principal
+// axes of the points and scaled by their spread, so that patches of thin bodies are well conditioned.
 struct PatchFit {
   Vec3 centre;              // m
-  Mat3 to_patch;            // from places relative to the centre, 1/m
+  Mat3 to_patch;            // maps a place relative to the centre to patch coordinates, 1/m
   Vector means;             // of the monomials
-  Eigen::MatrixXd inverse;  // of their normal equations; a pseudo-inverse where the points do not tell them apart
+  Eigen::MatrixXd inverse;  // (pseudo-)inverse of the normal equations
 };
 
-// Of one region. Points are numbered by elements: num_points() k + p.
+// Recovery for one region. Point p of element k has the index num_points * k + p.
 class RegionRecovery {
  public:
-  // `cells`: its elements, by their numbers in the mesh.
+  // `cells`: the region's elements, by their indices in the mesh.
   RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points);
 
-  // The nodes of the region, by their indices in the mesh; of each a row. `mesh` as in the constructor.
+  // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node. `mesh`: that
+  // of the constructor. `at_points`: one row per point.
   const std::vector<int>& nodes() const { return nodes_; }
   SixColumns at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const;
 
-  // Of each element its nodes as rows of these.
+  // Nodes of each element, as indices into nodes().
   const Cells& cells() const { return cells_; }
 
  private:
   struct Patch {
-    int row;                    // of its centre
-    std::vector<int> elements;  // of the region
+    int row;                    // of the centre in nodes()
+    std::vector<int> elements;  // numbers of elements in the region
     PatchFit fit;
-    std::vector<int> middles;  // rows of the nodes in the middle of its edges
+    std::vector<int> middles;  // rows of the adjacent edge midpoints
   };
 
   void add_middles(const ElementType& type, const std::vector<int>& patch_of);
@@ -51,9 +51,9 @@ class RegionRecovery {
 
   std::vector<int> nodes_;
   Cells cells_;
-  Eigen::Index per_element_;    // number of points
-  Eigen::Matrix3Xd places_;     // of the points, m
-  std::vector<Patch> patches_;  // one for each corner
+  Eigen::Index per_element_;    // points per element
+  Eigen::Matrix3Xd places_;     // positions of the points, m
+  std::vector<Patch> patches_;  // one per corner
 };
 
 }  // namespace orthodyn

@@ -8,7 +8,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kSmallStep = 1e-6;  // of the body's smallest extent
+constexpr double kSmallStep = 1e-6;  // largest displacement of the difference, relative to the body's smallest extent
 
 SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, int point)>& value) {
   SixColumns out(term.size() * term.num_points(), 6);
@@ -17,7 +17,7 @@ SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, in
   return out;
 }
 
-// In the axes of space at rest, Pa.
+// Stresses at all points in space axes at rest, Pa.
 SixColumns stresses(const ElasticTerm& term, const NodalState& s) {
   const Mat6 C = term.stiffness();
   const auto strains = term.strains(s);
@@ -64,11 +64,11 @@ SixColumns StressRecovery::of_all_ranks(std::size_t region, SixColumns at_points
   return all;
 }
 
-StressRecovery::OfRegion StressRecovery::at_nodes_of_region(std::size_t region, const NodalState& s,
-                                                            const Seen& seen) const {
+StressRecovery::NodalValues StressRecovery::at_nodes_of_region(std::size_t region, const NodalState& s,
+                                                               const Pick& pick) const {
   const ElasticTerm& term = *terms_[region];
   const RegionRecovery& recovery = regions()[region].recovery;
-  const auto value = [&](int k, int p) { return seen(term.observe_point(k, p, s)); };
+  const auto value = [&](int k, int p) { return pick(term.observe_point(k, p, s)); };
   return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, value)))};
 }
 
@@ -96,7 +96,7 @@ StressMisfit StressRecovery::misfit(const NodalState& s) const {
   return misfit_of(computed);
 }
 
-// By the difference over a displacement that is small beside the body.
+// Computed by a central difference over a displacement that is small compared with the body.
 StressMisfit StressRecovery::misfit_along(const NodalVector& direction, const NodalState& s) const {
   const double extent = bounding_box(mesh_).size().minCoeff();
   const double in_part = direction.size() > 0 ? direction.lpNorm<Eigen::Infinity>() : 0;

@@ -1,7 +1,8 @@
-// What is recovered at the nodes of a model's elastic terms, and the error of its mesh that the difference of recovered
-// and computed stresses, the misfit, tells.
+// Stresses and strains recovered at the nodes, and the discretisation error estimated from the misfit of recovered and
+// computed stresses.
 //
-// Regions are recovered one by one, for stresses jump between them. Thread-safe: computed once, at the first use.
+// Each region is recovered separately, because stresses jump between regions. Thread-safe. The patches are set up at
+// the first use.
 #pragma once
 
 #include <functional>
@@ -9,51 +10,56 @@
 #include <mutex>
 #include <vector>
 
-#include "lib/fem/misfit_energy.h"
 #include "lib/fem/region_recovery.h"
 #include "lib/fem/terms/elastic_term.h"
 
 namespace orthodyn {
 
-// Recovered less computed stress in the axes of space at rest, Pa: of each term's region a row for each node of each of
-// its elements, on all ranks. Of a derivative along a displacement, Pa/m.
+// Error estimate for the elements of a term on this rank, in the order of the term.
+struct RegionMeshError {
+  Vector volume;  // m^3
+  Vector error;   // elastic energy of the error, J
+  double energy;  // elastic energy of the computed stresses, summed over the elements, J
+};
+
+// Recovered minus computed stress in space axes at rest, Pa (for derivatives along a displacement: Pa/m). There is one
+// entry per term, with one row for each node of each element on all ranks.
 using StressMisfit = std::vector<SixColumns>;
 
 class StressRecovery {
  public:
   using Terms = std::vector<std::unique_ptr<ElasticTerm>>;
 
-  // All must outlive it. Where several ranks have parts of the terms, `mesh` is the whole one, and what is computed at
-  // their points comes from all: functions are collective, states are of the subdomain.
+  // All arguments must outlive this object. With several ranks, `mesh` is the whole mesh, states belong to the
+  // subdomain, and all functions are collective.
   StressRecovery(const TetMesh& mesh, const Terms& terms, const Subdomain* subdomain)
       : mesh_(mesh), terms_(terms), subdomain_(subdomain) {}
 
   std::size_t num_nodes() const { return mesh_.nodes.size(); }
   std::size_t num_regions() const { return terms_.size(); }
 
-  // Of what is seen at the points, six components, in one term's region by itself: its nodes, and a row for each. Valid
-  // as long as this.
-  using Seen = std::function<Vec6(const PointObservation&)>;
-  struct OfRegion {
-    const std::vector<int>* nodes;
-    SixColumns values;
+  // Recovers six components of a point observation in the region of one term. `nodes` refers to this object.
+  using Pick = std::function<Vec6(const PointObservation&)>;
+  struct NodalValues {
+    const std::vector<int>* nodes;  // indices in the mesh
+    SixColumns values;              // one row per node
   };
-  OfRegion at_nodes_of_region(std::size_t region, const NodalState& s, const Seen& seen) const;
+  NodalValues at_nodes_of_region(std::size_t region, const NodalState& s, const Pick& pick) const;
 
-  // One for each term, of its elements on this rank.
+  // Error estimates of all terms, for their elements on this rank.
   std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;
 
-  // Of the stress in a state, and of its derivative along a displacement from there.
+  // Misfit of the stress in a state, and the derivative of the misfit along a nodal displacement `direction`.
   StressMisfit misfit(const NodalState& s) const;
   StressMisfit misfit_along(const NodalVector& direction, const NodalState& s) const;
-  // The integral of a : C^-1 : b over the body: what the energy of a and b together is above that of each, J.
+  // Integral of a : C^-1 : b over the body (J), with the stiffness C.
   double product(const StressMisfit& a, const StressMisfit& b) const;
 
  private:
-  // The elements of a region on all ranks.
+  // A term's region with its elements on all ranks.
   struct Region {
     RegionRecovery recovery;
-    std::vector<int> places;  // among these of the term's elements
+    std::vector<int> places;  // index of each of the term's elements in the region
   };
 
   StressMisfit misfit_of(const std::vector<SixColumns>& at_points) const;
@@ -67,5 +73,21 @@ class StressRecovery {
   mutable std::once_flag once_;
   mutable std::vector<Region> regions_;
 };
+
+// Implementation (misfit_energy.cc). The misfit of a region, recovered minus computed, is given at the nodes of its
+// elements. Its elastic energy estimates the discretisation error (Zienkiewicz & Zhu 1992).
+//
+// In the following, stresses (Pa) are in space axes at rest, and `computed` has one row per integration point of the
+// region. `places`: index of each of the term's elements in the region.
+
+// Recovered minus computed stress: one row per node of each element.
+SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed);
+
+RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
+                           const std::vector<int>& places, const SixColumns& computed);
+
+// Integral of a : C^-1 : b over the term's elements, J. a and b are results of misfit_of_region().
+double misfit_product(const ElementMesh& mesh, const ElasticTerm& term, const std::vector<int>& places,
+                      const SixColumns& a, const SixColumns& b);
 
 }  // namespace orthodyn

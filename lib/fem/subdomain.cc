@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "lib/core/errors.h"
 #include "lib/mesh/partition.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/tet_faces.h"
@@ -34,7 +33,7 @@ void Subdomain::find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_
                            const std::vector<std::pair<int, int>>& links) {
   const int me = ranks_.rank();
   const std::size_t count = mesh.nodes.size();
-  RanksOfNodes ranks_of(tet_cells(mesh), rank_of_cell, count);
+  NodeRanks ranks_of(tet_cells(mesh), rank_of_cell, count);
   std::vector<int> owner(count), place(count), owned(at(ranks_.size()), 0);
   std::vector<char> is_here(count, 0);
   for (std::size_t node = 0; node < count; ++node) {
@@ -101,6 +100,15 @@ void Subdomain::add_to_owners(Vector& values) const {
   columns.row(0) = values.transpose();
   add_to_owners(columns);
   values = columns.row(0).transpose();
+}
+
+std::vector<double> Subdomain::whole_field(const std::vector<double>& here, std::size_t components) const {
+  std::vector<double> all(local_.size() * components, 0);
+  for (int i = 0; i < num_owned_; ++i)
+    std::copy_n(here.begin() + static_cast<std::ptrdiff_t>(at(i) * components), components,
+                all.begin() + static_cast<std::ptrdiff_t>(at(nodes_[at(i)]) * components));
+  ranks_.sum(all);
+  return all;
 }
 
 void Subdomain::agree(const std::string& trouble) const {

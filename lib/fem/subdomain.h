@@ -1,9 +1,9 @@
-// The part of a mesh that one of several ranks computes: its cells, and their nodes. Each cell is of one rank; a node
-// that cells of several ranks have is owned by one of these, and the others have copies of it.
+// The part of a mesh that one rank computes: its cells and their nodes. Each cell belongs to one rank. A node of cells
+// of several ranks is owned by one of these ranks; the others have copies.
 //
-// Nodes are numbered anew: those that this rank owns come first, then the copies, each ascending by their numbers in
-// the mesh. What belongs to single nodes (masses, springs, contact) is its owner's business; what comes from cells and
-// their faces is a sum over ranks.
+// Local numbering: owned nodes first, then copies, each in ascending order of their mesh indices. Contributions of
+// single nodes (masses, springs, contact) are computed by the owner; contributions of cells and faces are summed over
+// ranks.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/errors.h"
 #include "lib/core/ranks.h"
 #include "lib/fem/dof_map.h"
 #include "lib/mesh/tet_mesh.h"
@@ -20,26 +21,26 @@ namespace orthodyn {
 
 class Subdomain {
  public:
-  // Pairs of nodes in `links` have something in common beside their cells: the owner of the first one has both. Every
-  // rank has the whole mesh, and calls this. `ranks` must outlive it.
+  // For each node pair in `links`, the owner of the first node also gets the second. Collective: every rank passes the
+  // whole mesh. `ranks` must outlive this object.
   Subdomain(const TetMesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks);
 
   const Ranks& ranks() const { return ranks_; }
 
-  // Its cells by their numbers in the mesh, ascending; and its nodes, in their order here.
+  // Mesh indices of the cells (ascending) and of the nodes (in local order).
   const std::vector<int>& cells() const { return cells_; }
   const std::vector<int>& nodes() const { return nodes_; }
   int num_nodes() const { return static_cast<int>(nodes_.size()); }
   int num_owned() const { return num_owned_; }
 
-  // Of a node of the mesh its number here; -1 if this rank has nothing of it.
+  // Local index of a mesh node; -1 if the node is not on this rank.
   int local(int node) const { return local_[static_cast<std::size_t>(node)]; }
   bool owns(int node) const { return local(node) >= 0 && local(node) < num_owned_; }
 
-  // Cells, nodes and regions of this rank; neither surfaces nor node sets.
+  // The local mesh: cells, nodes and regions, without surfaces and node sets.
   TetMesh part_of(const TetMesh& mesh) const;
 
-  // Of numbers for the three coordinates of all nodes those of this rank's.
+  // Restricts values per coordinate (3 * node + component) of the mesh to the local nodes.
   template <class T>
   std::vector<T> coordinates_here(const std::vector<T>& of_all) const {
     std::vector<T> out;
@@ -49,10 +50,10 @@ class Subdomain {
     return out;
   }
 
-  // Of nodes of the mesh those that are here, or that are owned here, by their numbers here.
+  // Local indices of those of the given mesh nodes that exist on this rank, or that this rank owns.
   std::vector<int> here(const std::vector<int>& nodes) const;
   std::vector<int> owned(const std::vector<int>& nodes) const;
-  // Of (node, value) those that are owned here.
+  // Likewise for pairs (node, value): keeps those whose node this rank owns.
   template <class T>
   std::vector<std::pair<int, T>> owned(const std::vector<std::pair<int, T>>& values) const {
     std::vector<std::pair<int, T>> out;
@@ -60,17 +61,20 @@ class Subdomain {
       if (owns(node)) out.emplace_back(local(node), value);
     return out;
   }
-  // Whether a face with these corners is one of a cell of this rank, and of none of a rank before it.
+  // Whether the face with these corners belongs to this rank. A face belongs to the lowest rank with a cell at the
+  // face.
   bool has_face(std::span<const int> corners) const;
 
-  // Of vectors with a column per node here: the owners' columns to the copies, and sums of all columns of one node to
-  // its owner's, after which those of the copies are zero. Collective.
+  // Vectors with one column per local node. copy_from_owners() sets the columns of copies to those of the owners;
+  // add_to_owners() adds the columns of all copies to those of the owners and sets the copies to zero. Collective.
   void copy_from_owners(NodalVector& values) const { exchange_->copy_from_owners(values.data()); }
   void add_to_owners(NodalVector& values) const { exchange_->add_to_owners(values.data()); }
-  // The same of numbers.
-  void add_to_owners(Vector& values) const;
+  void add_to_owners(Vector& values) const;  // one number per local node
 
-  // Throws RecoverableError on all ranks if `trouble` is not empty on some. Collective.
+  // Field at all mesh nodes, from the owners' values: `components` numbers per node. Collective.
+  std::vector<double> whole_field(const std::vector<double>& here, std::size_t components) const;
+
+  // Throws RecoverableError on all ranks if `trouble` is not empty on any rank. Collective.
   void agree(const std::string& trouble) const;
 
  private:
@@ -80,8 +84,22 @@ class Subdomain {
   const Ranks& ranks_;
   std::vector<int> cells_, nodes_, local_;
   int num_owned_ = 0;
-  std::vector<Triangle> faces_;  // of its cells, by their corners in ascending order; without those of ranks before
+  std::vector<Triangle> faces_;  // faces of this rank, with corners in ascending order
   std::unique_ptr<NodeExchange> exchange_;
 };
+
+// Runs compute(). A RecoverableError on some ranks is thrown on all ranks. `subdomain` is null with one rank.
+// Collective.
+template <class Compute>
+void on_all_ranks(const Subdomain* subdomain, Compute&& compute) {
+  if (!subdomain) return compute();
+  std::string trouble;
+  try {
+    compute();
+  } catch (const RecoverableError& e) {
+    trouble = e.what();
+  }
+  subdomain->agree(trouble);
+}
 
 }  // namespace orthodyn

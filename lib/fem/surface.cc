@@ -8,7 +8,7 @@ namespace orthodyn {
 
 namespace {
 
-// Sums what `of_face` gives for the nodes of each face, a column each.
+// Sums nodal values over faces. of_face<F>(X) returns a function of a that gives the value at node a of the face.
 template <class Value, class OfFace>
 std::vector<std::pair<int, Value>> sum_over_faces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
                                                   const Value& zero, const OfFace& of_face) {

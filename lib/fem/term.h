@@ -1,5 +1,4 @@
-// A contribution to the right-hand side of M u'' = f: one physical effect per file. A scene holds
-// the terms that it names and nothing else.
+// A contribution to the force f in M u'' = f. Each physical effect has its own file.
 #pragma once
 
 #include <memory>
@@ -13,11 +12,11 @@
 
 namespace orthodyn {
 
-// Positions, displacements and velocities of all nodes, clamped ones included. What vanishes at rest is to be computed
-// from u: the digits that x has of a small displacement are few.
+// Positions, displacements and velocities of all nodes, clamped ones included. Compute quantities that vanish at rest
+// from u, not from x - X, which loses the digits of small displacements.
 struct NodalState {
   double t;              // s
-  const NodalVector& x;  // m; the rest position plus u
+  const NodalVector& x;  // positions, m: rest positions X plus u
   const NodalVector& u;  // m
   const NodalVector& v;  // m/s
 };
@@ -28,34 +27,34 @@ class Term {
  public:
   virtual ~Term() = default;
 
-  // Kind and place of the term: "gravity", "traction on x1". Names this part of the force (part_model.h).
+  // Kind and location, such as "gravity" or "traction on x1". part_names() uses it for this part of the force.
   virtual std::string name() const = 0;
 
-  // Name with number and size, for `orthodyn check`: "springs: 4 of 200 N/m".
+  // Name with number and size for `orthodyn check`, such as "springs: 4 of 200 N/m".
   virtual std::string description() const { return name(); }
   virtual std::size_t bytes() const { return 0; }
 
-  // The part of this term that one rank adds, in that rank's numbering of nodes. The parts of all ranks add up to this
-  // term. Null if the term cannot be divided.
+  // The contribution of one rank, in the node numbering of that rank; the contributions of all ranks add up to this
+  // term. Null if the term does not support several ranks.
   virtual std::unique_ptr<Term> part(const Subdomain&) const { return nullptr; }
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
 
-  // Whether it loads the body, so that a load factor of statics and buckling multiplies its force. Else it is a part of
-  // the structure, as springs are: it acts in full from the start.
+  // Whether the load factor of statics and buckling multiplies the force. False for parts of the structure, such as
+  // springs, which always act in full.
   virtual bool is_load() const { return energy_kind() != EnergyKind::elastic; }
 
-  // Whether its force depends on time alone, neither on positions nor on velocities; then it adds no tangent.
+  // Whether the force depends on neither positions nor velocities, so that the term has no tangent.
   virtual bool is_dead() const { return false; }
 
-  // Adds the force at the time in [s.t, end] at which the time function is largest, on the body in state s. `end`: s.
+  // Adds the force on the body in state s with the largest magnitude of the time function from s.t to `end` (s).
   virtual void add_peak_force(const NodalState& s, double /*end*/, NodalVector& f) const { add_force(s, f); }
 
   // Equivalent duration (s): the impulse from `start` to `end` divided by the peak force.
   virtual double seconds_at_peak(double start, double end) const { return end - start; }
 
-  // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
-  // which is exact where the energy is at most quadratic.
+  // Adds the mean force between two states (DiscreteGradient in lib/ode/model.h). Default: the static force at the
+  // midpoint, exact for energies that are at most quadratic.
   virtual void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
     const NodalVector x = 0.5 * (s0.x + s1.x), u = 0.5 * (s0.u + s1.u), still = NodalVector::Zero(3, x.cols());
     add_force({0.5 * (s0.t + s1.t), x, u, still}, f);
@@ -64,12 +63,13 @@ class Term {
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 
-  // Adds -df/dx as Model::linearize_mixed() has it.
+  // Adds -df/dx as defined by Model::linearize_mixed().
   virtual void add_mixed_tangent(const NodalState& /*before*/, const NodalState& s, double* stiffness) const {
     add_tangent(s, TangentKind::exact, stiffness, nullptr);
   }
 
-  // Adds to each node an upper bound of the row sums of its stiffness, N/m; elasticity has its own bound.
+  // Adds an upper bound of each node's stiffness row sum (N/m). Elasticity uses another bound:
+  // ElasticTerm::max_frequency_squared().
   virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
 
   // Contact stiffness of the stiffest node, N/m; 0 for terms without contact.

@@ -1,5 +1,5 @@
-// A term as the input asks for it: its keys, checked, and how it is made for a body. Those of a scene's list `terms`
-// are chosen by `type`, one kind per entry of Registry<TermChoice>; gravity and loads on surfaces have their own keys.
+// Input of a term: its checked keys, and a factory that makes the term for a body. Entries of a scene's list `terms`
+// are chosen by `type` from Registry<TermChoice>; gravity and loads on surfaces have their own keys.
 #pragma once
 
 #include <memory>
@@ -16,11 +16,11 @@
 
 namespace orthodyn {
 
-// The body that a term acts on. All but the mesh outlives the term. Where several ranks hold the model, mesh and rest
-// are of the whole body; pattern and masses are of this rank's subdomain, as Term::part() wants them.
+// The body that a term acts on. Everything except the mesh outlives the term. With several ranks, `mesh` and `rest`
+// belong to the whole body; `pattern` and `nodal_masses` belong to this rank's subdomain and are used by Term::part().
 struct Discretization {
   const TetMesh& mesh;
-  const NodalVector& rest;  // node positions, m
+  const NodalVector& rest;  // node positions at rest, m
   const BlockPattern& pattern;
   const Vector& nodal_masses;        // kg, the row sums of the mass matrix
   double mass = nodal_masses.sum();  // kg, of the whole body
@@ -30,24 +30,25 @@ class TermChoice {
  public:
   virtual ~TermChoice() = default;
 
-  // Of keys that were left out and depend on the kinematics: names and values, as YAML.
+  // Defaults that depend on the kinematics, for keys that the input leaves out: pairs of key and YAML value.
   using Defaults = std::vector<std::pair<std::string, std::string>>;
   virtual Defaults defaults(const ElasticityOptions&) const { return {}; }
 
-  // A tangent may couple nodes of one element, and those of couplings(). Throws ConfigError.
+  // Makes the term. Its tangent may couple only nodes of the same element and the pairs of couplings(). Throws
+  // ConfigError.
   virtual std::unique_ptr<Term> make(const Discretization& body) const = 0;
 
-  // Pairs of nodes that the term's tangent couples although they share no element.
+  // Node pairs without a common element that the term's tangent couples.
   virtual NodePairs couplings(const TetMesh& /*mesh*/) const { return {}; }
 
-  // Whether -df/dx of the term is symmetric for a body that is held in these coordinates (3 node + component), but for
-  // what depends on velocities. Statics then store K as it is; elsewhere its symmetric part is taken.
+  // Whether -df/dx is symmetric, apart from velocity-dependent forces, for a body that is held in the coordinates
+  // `held` (3 * node + component). If not, statics store the general K, and dynamics use its symmetric part.
   virtual bool has_symmetric_tangent(const TetMesh& /*mesh*/, const std::vector<bool>& /*held*/) const { return true; }
 
-  // What changes for integrators when the model has such a term; nothing for a conservative linear force. A force that
-  // depends on velocity must say damping_matrix (else methods with a mean force leave it out), one that depends on t
-  // time_dependent, one that is not linear in q and v linear = false, one with kinks smooth = false; not conservative,
-  // dissipative and loaded are what energy balances go by.
+  // Sets the traits that the term changes; nothing for a conservative linear force. Set damping_matrix if the force
+  // depends on velocity (methods with a mean force omit it otherwise), time_dependent if it depends on t, linear =
+  // false if it is not linear in q and v, smooth = false if it has kinks. Energy balances use conservative, dissipative
+  // and loaded.
   virtual void declare(Traits&) const {}
 };
 

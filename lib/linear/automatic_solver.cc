@@ -1,4 +1,4 @@
-// Takes the Cholesky factor where it fits and costs less than iterations do, else PETSc; KLU for unsymmetric matrices.
+// The automatic choice: Cholesky if its factor fits in memory and is cheaper, else PETSc; KLU if A is unsymmetric.
 #include <fmt/format.h>
 
 #include "lib/core/memory.h"
@@ -8,14 +8,14 @@
 namespace orthodyn {
 namespace {
 
-// Unknowns: below the first a factor costs less (docs/decisions.md). From the second on its analysis is not tried: a
-// guess, as is the share.
+// Numbers of unknowns. Below the first, a factor always costs less (docs/decisions.md). With the second or more, not
+// even the analysis of a factor is tried (an estimated limit).
 constexpr int kIterativeFrom = 100'000, kOnlyIterativeFrom = 3'000'000;
-// Of what the process may use, that a factor may take. What others happen to leave of it decides nothing: the same
-// scene has the same solver.
+// Largest share of memory_limit() for a factor (an estimate). The limit is used instead of the free memory, so that the
+// same scene always has the same solver.
 constexpr double kShareOfMemory = 0.6;
 
-constexpr double kSolutions = 15;  // of an adaptive run for each factor, measured
+constexpr double kSolutions = 15;  // solutions per factor in an adaptive run, measured
 
 bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
   using namespace solver_cost;
@@ -25,12 +25,12 @@ bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
          all * (kSetUp + kSolutions * kIterations * kIteration);
 }
 
-// Empty where a factor fits and costs less.
+// Reason to iterate, for description(); "" if a factor fits and costs less.
 std::string why_iterations(const Pattern& pattern, double factor_bytes) {
   constexpr double kGigabyte = 1e9;
   const double gigabytes = factor_bytes / kGigabyte, limit = memory_limit();
   if (factor_bytes > kShareOfMemory * limit)
-    return fmt::format("a factor takes {:.3g} GB, more than {} of {:.3g} GB of memory", gigabytes, kShareOfMemory,
+    return fmt::format("a factor needs {:.3g} GB, more than {} of {:.3g} GB of memory", gigabytes, kShareOfMemory,
                        limit / kGigabyte);
   if (is_cheaper_by_iterations(pattern, factor_bytes))
     return fmt::format("a factor of {:.3g} GB costs more than iterations", gigabytes);
@@ -40,24 +40,24 @@ std::string why_iterations(const Pattern& pattern, double factor_bytes) {
 class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
-    if (!pattern.symmetric) return take("klu", pattern);
-    if (pattern.share) return take(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
+    if (!pattern.symmetric) return use("klu", pattern);
+    if (pattern.share) return use(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
-    if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
+    if (!has_petsc || pattern.n < kIterativeFrom) return use("cholmod", pattern);
     if (pattern.n >= kOnlyIterativeFrom)
-      return take("petsc", pattern, fmt::format("no factor is tried of {} unknowns", pattern.n));
+      return use("petsc", pattern, fmt::format("no factor is tried for {} unknowns", pattern.n));
     try {
-      take("cholmod", pattern);
+      use("cholmod", pattern);
     } catch (const RunError&) {  // more than 2^31 entries, or no memory for the analysis
-      return take("petsc", pattern, "a factor cannot be analysed");
+      return use("petsc", pattern, "the analysis of a factor failed");
     }
     const auto factor = static_cast<double>(solver_->factor_bytes());
     const std::string because = why_iterations(pattern, factor);
     if (because.empty()) return;
     try {
-      take("petsc", pattern, because);
-    } catch (const ConfigError&) {  // it cannot be loaded here
-      take("cholmod", pattern, because + ", but PETSc cannot be loaded");
+      use("petsc", pattern, because);
+    } catch (const ConfigError&) {  // PETSc cannot be loaded
+      use("cholmod", pattern, because + ", but PETSc cannot be loaded");
     }
   }
 
@@ -77,26 +77,22 @@ class AutomaticSolver : public LinearSolver {
   }
 
  private:
-  void take(const char* type, const Pattern& pattern, const std::string& because = "") {
-    solver_.reset();  // before the next one takes memory
+  void use(const char* type, const Pattern& pattern, const std::string& because = "") {
+    solver_.reset();  // first, to free its memory
     solver_ = make_linear_solver({type}, pattern);
     type_ = type;
     because_ = because;
   }
 
   const char* type_ = "";
-  std::string because_;  // where a factor is not taken
+  std::string because_;  // why no factor is used, or ""
   std::unique_ptr<LinearSolver> solver_;
 };
 
-const bool automatic_registered =
-    solver_registry()
-        .emplace(
-            "auto",
-            SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
-                       "petsc; on several ranks petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
-                       true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }, false, "", true})
-        .second;
+const bool automatic_registered = register_solver(
+    "auto", {"cholmod where its factor fits in memory and costs less than iterations, else petsc; on several ranks "
+             "petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
+             true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }, false, "", true});
 
 }  // namespace
 }  // namespace orthodyn

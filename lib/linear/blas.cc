@@ -10,13 +10,13 @@ namespace orthodyn {
 
 namespace {
 
-// BLAS is chosen when the program is loaded, not when it is built: ask for the symbols by name.
+// BLAS and OpenMP are chosen when the program is loaded, not when it is built, so symbols are looked up by name.
 template <class Function>
 Function* find(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-// OpenBLAS has one number of threads for the whole process.
+// The number of OpenBLAS threads, which is global to the process.
 class ThreadCount {
  public:
   void limit(int most) {
@@ -43,12 +43,22 @@ class ThreadCount {
   void (*const set_)(int) = find<void(int)>("openblas_set_num_threads");
   std::mutex mutex_;
   std::multiset<int> limits_;
-  int free_ = 0;  // threads without limits
+  int free_ = 0;  // number of threads without limits
 };
 
 ThreadCount& thread_count() {
   static ThreadCount count;
   return count;
+}
+
+struct Levels {
+  int (*const get)() = find<int()>("omp_get_max_active_levels");
+  void (*const set)(int) = find<void(int)>("omp_set_max_active_levels");
+};
+
+const Levels& active_levels() {
+  static const Levels levels;
+  return levels;
 }
 
 }  // namespace
@@ -72,6 +82,16 @@ BlasThreadLimit::BlasThreadLimit(std::optional<int> most) : most_(most) {
 
 BlasThreadLimit::~BlasThreadLimit() {
   if (most_) thread_count().release(*most_);
+}
+
+SerialOpenMp::SerialOpenMp() {
+  if (!active_levels().set || !active_levels().get) return;
+  levels_ = active_levels().get();
+  active_levels().set(0);
+}
+
+SerialOpenMp::~SerialOpenMp() {
+  if (active_levels().set && active_levels().get) active_levels().set(levels_);
 }
 
 }  // namespace orthodyn

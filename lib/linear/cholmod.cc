@@ -5,17 +5,16 @@
 #include <optional>
 
 #include "lib/core/errors.h"
+#include "lib/core/memory.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
 #include "lib/linear/gathered_solver.h"
-#include "lib/linear/memory_check.h"
-#include "lib/linear/openmp.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
 namespace {
 
-// Below this size minimum degree gives as little fill as nested dissection, and is found sooner.
+// Below this number of unknowns, minimum degree gives as little fill as nested dissection and is faster.
 constexpr int kNestedDissectionFrom = 50'000;
 
 enum class Definite { yes, no };
@@ -28,7 +27,8 @@ class Cholmod : public LinearSolver {
     common_.quick_return_if_not_posdef = 1;
 #ifdef ORTHODYN_GPL
     common_.supernodal = definite == Definite::yes ? CHOLMOD_AUTO : CHOLMOD_SIMPLICIAL;
-    // Columns of narrow supernodes that are merged, with many zeros (CHOLMOD's own: 4 and 16).
+    // Merges narrow supernodes up to these numbers of columns, at the cost of stored zeros (CHOLMOD's defaults: 4 and
+    // 16).
     common_.nrelax[0] = 16, common_.nrelax[1] = 24;
 #else
     common_.supernodal = CHOLMOD_SIMPLICIAL;
@@ -54,7 +54,7 @@ class Cholmod : public LinearSolver {
     cholmod_free_factor(&factor_, &common_);
     cholmod_sparse view = view_of(nullptr);
     factor_ = cholmod_analyze(&view, &common_);
-    if (!factor_ && dissect && common_.status != CHOLMOD_OUT_OF_MEMORY) {  // built without METIS
+    if (!factor_ && dissect && common_.status != CHOLMOD_OUT_OF_MEMORY) {  // CHOLMOD was built without METIS
       common_.method[0].ordering = CHOLMOD_AMD;
       factor_ = cholmod_analyze(&view, &common_);
     }
@@ -68,10 +68,10 @@ class Cholmod : public LinearSolver {
   FactorStatus factor(const double* values) override {
     const BlasThreadLimit threads(most_threads());
     const SerialOpenMp serial;
-    if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
+    if (factor_->xtype == CHOLMOD_PATTERN)  // first factorisation on this pattern
       require_memory_for_factor(
           factor_bytes(), "the Cholesky factor",
-          "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
+          "use a coarser mesh, or an explicit integrator (central_differences), which needs no factor");
     cholmod_sparse view = view_of(values);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF)
@@ -93,15 +93,14 @@ class Cholmod : public LinearSolver {
     view.nrow = static_cast<std::size_t>(b.size());
     view.ncol = 1;
     view.nzmax = view.d = view.nrow;
-    view.x = const_cast<double*>(b.data());  // CHOLMOD reads it only
+    view.x = const_cast<double*>(b.data());  // CHOLMOD only reads it
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
     if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_)) refuse_failure();
     x = Eigen::Map<const Vector>(static_cast<const double*>(x_->x), b.size());
   }
 
-  // The factor, and what CHOLMOD needs beside it while it factors: a permuted copy of the matrix and,
-  // for supernodes, the largest update.
+  // The factor and CHOLMOD's workspace: a permuted copy of the matrix and, for supernodes, the largest update matrix.
   std::size_t factor_bytes() const override {
     if (!factor_) return 0;
     const std::size_t n = factor_->n, index = sizeof(int), number = sizeof(double);
@@ -120,7 +119,7 @@ class Cholmod : public LinearSolver {
     return pattern_->n < kBlasThreadsFrom || blas_uses_openmp() ? std::optional(1) : std::nullopt;
   }
 
-  // CHOLMOD takes pointers to non-const, and reads only.
+  // CHOLMOD takes non-const pointers but only reads.
   cholmod_sparse view_of(const double* values) const {
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(pattern_->n);
@@ -128,7 +127,7 @@ class Cholmod : public LinearSolver {
     view.p = const_cast<int*>(pattern_->column_start.data());
     view.i = const_cast<int*>(pattern_->row.data());
     view.x = const_cast<double*>(values);
-    view.stype = -1;  // the lower triangle is given
+    view.stype = -1;  // lower triangle
     view.itype = CHOLMOD_INT;
     view.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
     view.dtype = CHOLMOD_DOUBLE;
@@ -136,7 +135,7 @@ class Cholmod : public LinearSolver {
     return view;
   }
 
-  // The simplicial factorisation is L D L^T, which goes on past a negative pivot.
+  // The simplicial factorisation is L D L^T, which continues past a negative pivot.
   int count_negative_pivots() const {
     if (factor_->is_super || factor_->is_ll) return 0;
     const auto* column = static_cast<const int*>(factor_->p);
@@ -165,20 +164,10 @@ class Cholmod : public LinearSolver {
   std::string description_;
 };
 
-const bool cholmod_registered =
-    solver_registry()
-        .emplace("cholmod", SolverKind{"CHOLMOD sparse Cholesky on the reduced n x n matrix, simplicial or "
-                                       "supernodal by size; symmetric tangents.",
-                                       false, [](const std::string&) { return std::make_unique<Cholmod>(); }})
-        .second;
-
-}  // namespace
-
-std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern) {
-  return prepare(std::make_unique<Cholmod>(Definite::no), pattern);
-}
-
-namespace {
+const bool cholmod_registered = register_solver(
+    "cholmod",
+    {"CHOLMOD sparse Cholesky on the reduced n x n matrix, simplicial or supernodal by size; symmetric tangents.",
+     false, [](const std::string&) { return std::make_unique<Cholmod>(); }});
 
 const bool version_registered = library_versions()
                                     .emplace("SuiteSparse", fmt::format("CHOLMOD {}.{}.{}", CHOLMOD_MAIN_VERSION,
@@ -186,4 +175,9 @@ const bool version_registered = library_versions()
                                     .second;
 
 }  // namespace
+
+std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern) {
+  return prepare(std::make_unique<Cholmod>(Definite::no), pattern);
+}
+
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Eigen's simplicial L D L^T: no dependency beyond Eigen, for small systems.
+// Eigen's simplicial L D L^T, for small systems.
 #include <Eigen/SparseCholesky>
 
 #include "lib/linear/solver.h"
@@ -6,7 +6,7 @@
 namespace orthodyn {
 namespace {
 
-// matrixL() may be asked only after a factorisation; the size of L is known from the analysis on.
+// Gives the number of entries of L after the analysis; matrixL() is available only after a factorisation.
 class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> {
  public:
   std::size_t entries() const { return static_cast<std::size_t>(m_matrix.nonZeros()); }
@@ -40,12 +40,9 @@ class EigenLdlt : public LinearSolver {
   Ldlt ldlt_;
 };
 
-const bool eigen_ldlt_registered =
-    solver_registry()
-        .emplace("eigen_ldlt", SolverKind{"Eigen's simplicial Cholesky on the reduced n x n matrix; symmetric "
-                                          "tangents, small systems.",
-                                          false, [](const std::string&) { return std::make_unique<EigenLdlt>(); }})
-        .second;
+const bool eigen_ldlt_registered = register_solver(
+    "eigen_ldlt", {"Eigen's simplicial Cholesky on the reduced n x n matrix; symmetric tangents, small systems.", false,
+                   [](const std::string&) { return std::make_unique<EigenLdlt>(); }});
 
 }  // namespace
 }  // namespace orthodyn

@@ -1,13 +1,12 @@
-// The lowest pairs (lambda, x) of K x = lambda M x with symmetric K and M on one pattern, M positive definite:
-// Lanczos iteration on (K + s M)^-1 M (Ericsson & Ruhe 1980, through Spectra), dense for small matrices.
+// Computes the lowest eigenpairs (lambda, x) of K x = lambda M x for symmetric K and M on one pattern, M positive
+// definite. The method is Lanczos iteration on (K + s M)^-1 M (Ericsson & Ruhe 1980, through Spectra), or a dense
+// solver for small matrices.
 //
-// The shift s > 0 makes K + s M positive definite where K alone is not, as for a body that nothing holds. Eigenvalues
-// that round-off does not tell from zero, those below a hundred eps of the largest, are set to zero. Where there are
-// some, a second pass with a shift of the size of the lowest other eigenvalue finds that one to full accuracy.
+// The shift s > 0 makes K + s M positive definite if K is singular, as for a free body. Eigenvalues below 100 eps
+// (machine epsilon) times the largest one cannot be distinguished from zero and are set to zero. If there are any, a
+// second pass with the lowest nonzero eigenvalue as the shift computes that eigenvalue to full accuracy.
 //
-// K + s M is factored where the factor fits in memory; else PETSc's conjugate gradients with multigrid take its place.
-//
-// No state is kept: may be called by several threads.
+// Systems with K + s M are solved by a factor if it fits in memory, else by PETSc's multigrid-CG. Thread-safe.
 #pragma once
 
 #include <functional>
@@ -20,23 +19,24 @@ namespace orthodyn {
 
 struct EigenPairs {
   Vector values;           // ascending, in the unit of K over that of M (1/s^2); zeros are exactly 0
-  Eigen::MatrixXd shapes;  // a column each, M-orthonormal
-  Vector residuals = {};   // |K x - lambda M x| / |lambda_ref M x|, lambda_ref of x or the lowest that is not zero
+  Eigen::MatrixXd shapes;  // one column per pair, M-orthonormal
+  Vector residuals = {};   // |K x - lambda M x| / |lambda_ref M x|, lambda_ref = max(lambda, lowest nonzero eigenvalue)
   int zeros = 0;
   double resolution = 0;    // eigenvalues below it count as zero
-  std::string solver = {};  // what solved the systems with K + s M
+  std::string solver = {};  // description of the solver of K + s M
 };
 
-enum class ShiftedSolver { whatever_fits, iterative };
+// Solver of the systems with K + s M. automatic: a factor if it fits in memory, else PETSc.
+enum class ShiftedSolver { automatic, iterative };
 
-// The motions that K resists least, n x 6, for multigrid; called if it is taken.
-using SoftestMotions = std::function<Eigen::MatrixXd()>;
+// Returns the rigid motions, n x 6, for multigrid; called only if multigrid is used.
+using RigidMotions = std::function<Eigen::MatrixXd()>;
 
-// K and M by their values on `pattern`. `softest`: may be empty. Throws ConfigError if the pattern is not symmetric or
-// there are fewer unknowns than modes, RunError if the iteration fails, if a residual is above 1e-6 and above
-// round-off, or if K is so indefinite that no shift of a moderate size helps.
+// `K` and `M`: values on `pattern`. `rigid_motions` may be empty. Throws ConfigError if the pattern is unsymmetric or
+// there are fewer unknowns than modes; RunError if the iteration fails, if a residual exceeds 1e-6 and round-off, or if
+// K is so indefinite that no moderate shift makes K + s M positive definite.
 EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
-                             int count, const SoftestMotions& softest = {},
-                             ShiftedSolver solver = ShiftedSolver::whatever_fits);
+                             int count, const RigidMotions& rigid_motions = {},
+                             ShiftedSolver solver = ShiftedSolver::automatic);
 
 }  // namespace orthodyn

@@ -11,13 +11,13 @@ namespace orthodyn {
 
 namespace {
 
-// The whole matrix, as the first rank puts it together from entries that ranks have of it.
+// The global matrix, assembled by the first rank from the entries of all ranks.
 class WholeMatrix {
  public:
   WholeMatrix() = default;
 
-  // `row_of_unknown`: by the unknowns' order in the vectors. Entries by their rows and columns, in the lower or the
-  // upper triangle where `symmetric`.
+  // `row_of_unknown`: global row of each unknown, in the order of the vectors. `rows`, `columns`: position of each
+  // entry, in either triangle if `symmetric`.
   WholeMatrix(const std::vector<double>& row_of_unknown, const std::vector<double>& rows,
               const std::vector<double>& columns, bool symmetric) {
     const Numbers number(row_of_unknown);
@@ -46,7 +46,7 @@ class WholeMatrix {
 
   const Pattern& pattern() const { return pattern_; }
 
-  // Of the entries, in the order in which they were given; those of one place are added up.
+  // `of_entries`: values in the order of the constructor's entries; values at the same position are added.
   const double* values(const std::vector<double>& of_entries) {
     std::fill(values_.begin(), values_.end(), 0.0);
     for (std::size_t k = 0; k < of_entries.size(); ++k) values_[static_cast<std::size_t>(place_[k])] += of_entries[k];
@@ -54,7 +54,7 @@ class WholeMatrix {
   }
 
  private:
-  // Of each row the number of its unknown.
+  // Maps a global row to the index of its unknown.
   class Numbers {
    public:
     explicit Numbers(const std::vector<double>& row_of_unknown) {
@@ -68,7 +68,7 @@ class WholeMatrix {
   };
 
   Pattern pattern_;
-  std::vector<std::ptrdiff_t> place_;  // of each entry among the values
+  std::vector<std::ptrdiff_t> place_;  // index of each entry in values_
   std::vector<double> values_;
 };
 
@@ -82,7 +82,7 @@ class GatheredSolver : public LinearSolver {
     share_ = pattern.share;
     num_entries_ = pattern.row.size();
     const auto& row = share_->row;
-    const std::vector<double> unknowns(row.begin(), row.begin() + share_->owned);  // doubles hold them up to 2^53
+    const std::vector<double> unknowns(row.begin(), row.begin() + share_->owned);  // doubles are exact up to 2^53
     std::vector<double> rows, columns;
     for (int j = 0; j < pattern.n; ++j)
       for (int k = pattern.column_start[at(j)]; k < pattern.column_start[at(j) + 1]; ++k) {
@@ -95,26 +95,25 @@ class GatheredSolver : public LinearSolver {
       whole_ = WholeMatrix(all_unknowns, all_rows, all_columns, pattern.symmetric);
       solver_->analyze(whole_.pattern());
     });
-    if (ranks().as_first_says(ranks().is_first() && solver_->is_iterative()))
+    if (ranks().broadcast_flag(ranks().is_first() && solver_->is_iterative()))
       throw ConfigError(
-          "an iterative linear solver that does not share its work does not run on several ranks; use "
-          "petsc, or a direct one");
-    checks_definiteness_ = ranks().as_first_says(ranks().is_first() && solver_->checks_definiteness());
+          "an iterative linear solver of one process does not run on several ranks; use petsc, or a direct solver");
+    checks_definiteness_ = ranks().broadcast_flag(ranks().is_first() && solver_->checks_definiteness());
   }
 
   FactorStatus factor(const double* values) override {
     const auto all = ranks().gather({values, num_entries_});
-    std::array<double, 3> told{};  // the status, how many eigenvalues are negative, the sign of the determinant
+    std::array<double, 3> result{};  // status, number of negative eigenvalues, sign of the determinant
     on_first([&] {
       const FactorStatus status = solver_->factor(whole_.values(all));
-      told = {static_cast<double>(status), static_cast<double>(solver_->negative_eigenvalues()), 0};
+      result = {static_cast<double>(status), static_cast<double>(solver_->negative_eigenvalues()), 0};
       if (const auto negative = status == FactorStatus::ok ? solver_->has_negative_determinant() : std::nullopt)
-        told[2] = *negative ? -1 : 1;
+        result[2] = *negative ? -1 : 1;
     });
-    ranks().broadcast(told);
-    negative_ = static_cast<int>(told[1]);
-    sign_ = told[2];
-    return static_cast<FactorStatus>(told[0]);
+    ranks().broadcast(result);
+    negative_ = static_cast<int>(result[1]);
+    sign_ = result[2];
+    return static_cast<FactorStatus>(result[0]);
   }
 
   bool checks_definiteness() const override { return checks_definiteness_; }
@@ -134,20 +133,20 @@ class GatheredSolver : public LinearSolver {
 
   std::size_t factor_bytes() const override { return ranks().is_first() ? solver_->factor_bytes() : 0; }
   std::string description() const override {
-    return fmt::format("{}, by the first of {} ranks", solver_->description(), ranks().size());
+    return fmt::format("{}, on the first of {} ranks", solver_->description(), ranks().size());
   }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Ranks& ranks() const { return *share_->ranks; }
 
-  // What the first rank does and the others wait for. If it throws, they throw the like.
+  // Runs `work` on the first rank; the others wait. If it throws, all ranks throw an exception of the same kind.
   void on_first(const std::function<void()>& work) {
     std::exception_ptr failure;
-    std::array<double, 2> told{static_cast<double>(Failure::none), 0};
-    const auto tell = [&](Failure kind, Reason reason = Reason::other) {
+    std::array<double, 2> result{static_cast<double>(Failure::none), 0};
+    const auto record = [&](Failure kind, Reason reason = Reason::other) {
       failure = std::current_exception();
-      told = {static_cast<double>(kind), static_cast<double>(reason)};
+      result = {static_cast<double>(kind), static_cast<double>(reason)};
     };
     try {
       try {
@@ -157,42 +156,38 @@ class GatheredSolver : public LinearSolver {
                        Reason::out_of_memory);
       }
     } catch (const RunError& e) {
-      tell(Failure::run, e.reason());
+      record(Failure::run, e.reason());
     } catch (const RecoverableError&) {
-      tell(Failure::recoverable);
+      record(Failure::recoverable);
     } catch (const ConfigError&) {
-      tell(Failure::input);
+      record(Failure::input);
     } catch (...) {
-      tell(Failure::run);
+      record(Failure::run);
     }
-    ranks().broadcast(told);
+    ranks().broadcast(result);
     if (failure) std::rethrow_exception(failure);
     static constexpr const char* kMessage = "the first rank cannot solve the linear system";
-    switch (static_cast<Failure>(told[0])) {
+    switch (static_cast<Failure>(result[0])) {
       case Failure::none: return;
       case Failure::recoverable: throw RecoverableError(kMessage);
       case Failure::input: throw ConfigError(kMessage);
-      case Failure::run: throw RunError(kMessage, static_cast<Reason>(told[1]));
+      case Failure::run: throw RunError(kMessage, static_cast<Reason>(result[1]));
     }
   }
 
   std::shared_ptr<const PatternShare> share_;
   std::size_t num_entries_ = 0;
-  WholeMatrix whole_;  // whose pattern the solver keeps
+  WholeMatrix whole_;  // must outlive solver_, which uses its pattern
   std::unique_ptr<LinearSolver> solver_;
   bool checks_definiteness_ = false;
   int negative_ = 0;
-  double sign_ = 0;  // of the determinant; 0: not known
+  double sign_ = 0;  // sign of the determinant; 0 if unknown
 };
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_gathered_solver(std::unique_ptr<LinearSolver> solver) {
-  return std::make_unique<GatheredSolver>(std::move(solver));
-}
-
 std::unique_ptr<LinearSolver> prepare(std::unique_ptr<LinearSolver> solver, const Pattern& pattern) {
-  if (pattern.share) solver = make_gathered_solver(std::move(solver));
+  if (pattern.share) solver = std::make_unique<GatheredSolver>(std::move(solver));
   solver->analyze(pattern);
   return solver;
 }

@@ -1,4 +1,4 @@
-// Solvers of one process for matrices of which several ranks have parts.
+// Lets a linear solver for one process solve systems whose matrix is distributed over several ranks.
 #pragma once
 
 #include <memory>
@@ -7,12 +7,10 @@
 
 namespace orthodyn {
 
-// The first rank gets the whole matrix and has `solver`, a direct one, do the work while the others wait: for matrices
-// whose factor costs less than what ranks would tell each other. The same number of ranks gives the same bits. All
-// calls but description() and factor_bytes() are collective.
-std::unique_ptr<LinearSolver> make_gathered_solver(std::unique_ptr<LinearSolver> solver);
-
-// Analyses a solver of one process for matrices on this pattern, gathered if several ranks have parts of them.
+// Analyses a direct solver for matrices on this pattern and returns it. If the pattern is distributed, the first rank
+// gathers the matrix and solves while the others wait. This pays if a factor costs less than communication between
+// ranks. Results are then reproducible for the same number of ranks, and all calls except description() and
+// factor_bytes() are collective.
 std::unique_ptr<LinearSolver> prepare(std::unique_ptr<LinearSolver> solver, const Pattern& pattern);
 
 }  // namespace orthodyn

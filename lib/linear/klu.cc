@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/linear/memory_check.h"
+#include "lib/core/memory.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
 namespace {
 
-// Kept pivots may let entries grow by the inverse of this: three digits at most are lost.
+// Pivots are reused as long as entries grow by less than the inverse of this number, which loses at most three digits.
 constexpr double kSmallestReciprocalGrowth = 1e-3;
 
 bool is_odd(std::span<const int> permutation) {
@@ -31,7 +31,7 @@ class Klu : public LinearSolver {
   Klu() {
     klu_defaults(&common_);
     common_.ordering = 0;  // AMD
-    common_.btf = 0;       // our matrices are irreducible
+    common_.btf = 0;       // the matrices are irreducible
   }
 
   ~Klu() override { release(); }
@@ -73,7 +73,7 @@ class Klu : public LinearSolver {
     klu_solve(symbolic_, numeric_, static_cast<int>(x.size()), 1, x.data(), &common_);
   }
 
-  // The row scales are positive.
+  // Computed from the signs of the pivots and of the permutations; KLU's row scales are positive.
   std::optional<bool> has_negative_determinant() const override {
     const auto* pivots = static_cast<const double*>(numeric_->Udiag);
     const auto n = static_cast<std::size_t>(symbolic_->n);
@@ -109,11 +109,8 @@ class Klu : public LinearSolver {
   SparseMatrix full_;
 };
 
-const bool klu_registered =
-    solver_registry()
-        .emplace("klu", SolverKind{"KLU sparse LU on the reduced n x n matrix; symmetric or not.", true,
-                                   [](const std::string&) { return std::make_unique<Klu>(); }})
-        .second;
+const bool klu_registered = register_solver("klu", {"KLU sparse LU on the reduced n x n matrix; symmetric or not.",
+                                                    true, [](const std::string&) { return std::make_unique<Klu>(); }});
 
 }  // namespace
 }  // namespace orthodyn

@@ -2,14 +2,12 @@
 
 #include <cstdlib>
 #include <memory>
-#include <string>
 
-#include "lib/core/errors.h"
 #include "lib/linear/petsc_library.h"
 
 namespace orthodyn {
 
-// As the launchers of Open MPI, MPICH and Slurm with PMI or PMIx tell it.
+// Reads the environment variables of Open MPI, MPICH and Slurm with PMI or PMIx.
 bool is_one_of_several_ranks() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"})
     if (const char* size = std::getenv(name)) return std::atoi(size) > 1;
@@ -27,7 +25,7 @@ bool is_a_later_rank() {
 
 const Ranks* mpi_world() {
   if (!is_one_of_several_ranks()) return nullptr;
-  return reinterpret_cast<WorldRanks*>(petsc_function("orthodyn_world_ranks"))();
+  return reinterpret_cast<WorldRanks*>(petsc_function("orthodyn_mpi_world"))();
 }
 
 std::vector<int> parts_of_cells(const CellGraph& graph, int parts) {

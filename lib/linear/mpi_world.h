@@ -1,20 +1,19 @@
-// The ranks that mpirun has started.
+// The MPI ranks of this run.
 #pragma once
 
 #include "lib/core/ranks.h"
 
 namespace orthodyn {
 
-// Null where this process is alone: then MPI is not started either. Throws ConfigError where it is one of several, and
-// this build has no MPI.
+// Returns null, and does not start MPI, for a single process. Throws ConfigError for several processes in a build
+// without MPI.
 const Ranks* mpi_world();
 
-// Of each cell the part it is in, as Ranks::partition() has it, for any number of parts, by this process alone. Throws
-// ConfigError where this build has no MPI.
+// As Ranks::partition(), but for any number of parts and not collective. Throws ConfigError in a build without MPI.
 std::vector<int> parts_of_cells(const CellGraph& graph, int parts);
 
-// Whether it is one of several, and whether another one is the first of them, as the launcher tells it: without
-// starting MPI.
+// is_one_of_several_ranks(): true if the launcher started several processes. is_a_later_rank(): true if this process is
+// not the first of them. Neither function starts MPI.
 bool is_one_of_several_ranks();
 bool is_a_later_rank();
 

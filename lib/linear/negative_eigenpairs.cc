@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "lib/core/errors.h"
 #include "lib/core/symmetric_eigen.h"
@@ -18,7 +17,7 @@ namespace {
 
 constexpr int kDenseUnknowns = 300;
 
-// As Spectra wants its operators.
+// Operators for Spectra: A x, and B with its solver.
 struct SymmetricProduct {
   using Scalar = double;
   const Pattern& pattern;
@@ -44,11 +43,7 @@ struct DefiniteOperator {
 
 NegativeEigenPairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
                                int count) {
-  const auto full = [&](const std::vector<double>& values) {
-    const Eigen::MatrixXd stored(pattern.matrix(values.data()));
-    return Eigen::MatrixXd(stored.selfadjointView<Eigen::Lower>());
-  };
-  const auto pairs = symmetric_eigenpairs(full(A), full(B));
+  const auto pairs = symmetric_eigenpairs(dense_symmetric(pattern, A), dense_symmetric(pattern, B));
   return {pairs.values.head(count), pairs.vectors.leftCols(count)};
 }
 
@@ -61,8 +56,8 @@ NegativeEigenPairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, S
   constexpr int kMostRestarts = 300;
   const auto found = solver.compute(rule, kMostRestarts, tolerance, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw RunError(fmt::format("{} of {} pairs converged in {} restarts of the Lanczos iteration; ask for fewer", found,
-                               count, kMostRestarts));
+    throw RunError(fmt::format("{} of {} eigenpairs converged in {} restarts of the Lanczos iteration; request fewer",
+                               found, count, kMostRestarts));
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -73,8 +68,7 @@ std::vector<double> sum(const std::vector<double>& A, double s, const std::vecto
   return out;
 }
 
-// The number of eigenvalues nu below a bound: by Sylvester's law of inertia that of the negative eigenvalues of
-// A - bound B.
+// Number of eigenvalues nu < bound: the number of negative eigenvalues of A - bound B (Sylvester's law of inertia).
 int count_below(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B, double bound) {
   const auto solver = make_indefinite_solver(pattern);
   if (solver->factor(sum(A, -bound, B).data()) != FactorStatus::ok)
@@ -88,13 +82,13 @@ std::vector<double> divided(const std::vector<double>& values, double by) {
   return out;
 }
 
-// Of A and B in units in which both are about one.
+// Precondition: A and B are scaled so that B and B^-1 A are of size one.
 NegativeEigenPairs lanczos_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
                                  LinearSolver& solver, int count) {
   const SymmetricProduct a{pattern, A}, b{pattern, B};
   DefiniteOperator inverse{b, solver};
-  // Spectra's tolerance is relative to each eigenvalue, which asks too much of those next to zero. With all of them
-  // shifted by a little more than the largest it is relative to that one there.
+  // Spectra's tolerance is relative to each eigenvalue, which is too strict for those near zero. Shifting all
+  // eigenvalues by a little more than the largest magnitude makes the tolerance relative to that magnitude.
   const double raised = 1.1 * std::abs(lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, 1e-2).values[0]);
   const auto positive = sum(A, raised, B);
   NegativeEigenPairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
@@ -111,7 +105,7 @@ NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector
   const auto B = divided(B_given, unit_of_B);
   const auto solver = make_linear_solver("cholmod", pattern);
   if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
-  const double unit = nearest_power_of_two(operator_size(
+  const double unit = nearest_power_of_two(operator_norm(
       pattern.n, [&](const Vector& x, Vector& y) { pattern.multiply(A_given.data(), x, y); },
       [&](const Vector& y, Vector& x) { solver->solve(y / unit_of_B, x); }));
   const auto A = divided(A_given, unit * unit_of_B);

@@ -1,8 +1,7 @@
-// The pairs (nu, x) with the most negative nu of A x = nu B x, A and B symmetric on one pattern, B positive definite:
-// Lanczos iteration on B^-1 A in the inner product of B (through Spectra), dense for small matrices. Well separated are
-// the ends of the spectrum where B^-1 A is nearly compact, as for a stress stiffness against a stiffness.
-//
-// No state is kept: may be called by several threads.
+// Computes the eigenpairs (nu, x) of A x = nu B x with the most negative nu, for symmetric A and B on one pattern, B
+// positive definite. The method is Lanczos iteration on B^-1 A in the inner product of B (through Spectra), or a dense
+// solver for small matrices. Lanczos converges fast if B^-1 A is nearly compact, because the ends of its spectrum are
+// then well separated. This is the case for a stress stiffness A and an elastic stiffness B. Thread-safe.
 #pragma once
 
 #include <vector>
@@ -13,11 +12,11 @@ namespace orthodyn {
 
 struct NegativeEigenPairs {
   Vector values;           // ascending
-  Eigen::MatrixXd shapes;  // a column each, B-orthonormal
+  Eigen::MatrixXd shapes;  // one column per pair, B-orthonormal
 };
 
-// Those with nu < -bound, bound > 0, at most `count`. A and B by their values on `pattern`. Throws ConfigError if the
-// pattern is not symmetric, RunError if B is not positive definite or the iteration fails.
+// Returns at most `count` pairs with nu < -bound, bound > 0. `A` and `B`: values on `pattern`. Throws ConfigError if
+// the pattern is unsymmetric, RunError if B is not positive definite or the iteration fails.
 NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A,
                                        const std::vector<double>& B, double bound, int count);
 

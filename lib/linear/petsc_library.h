@@ -1,4 +1,4 @@
-// The way into liborthodyn_petsc, which PETSc, MPI and what needs them are in.
+// Access to liborthodyn_petsc, which contains everything that needs PETSc and MPI.
 #pragma once
 
 #include <string>
@@ -10,16 +10,15 @@ class LinearSolver;
 class Ranks;
 struct CellGraph;
 
-// Of the type of its function `orthodyn_make_petsc_solver`: the caller owns the solver.
+// Types of the library's functions.
+// orthodyn_make_petsc_solver; the caller owns the result.
 using MakePetscSolver = LinearSolver*(const std::string& options);
-
-// Of `orthodyn_world_ranks`: null where this process is alone.
-using WorldRanks = const Ranks*();
-
-// Of `orthodyn_partition_cells`: the caller owns what it returns.
+using WorldRanks = const Ranks*();  // orthodyn_mpi_world; null for a single process
+// orthodyn_partition_cells; the caller owns the result.
 using PartitionCells = std::vector<int>*(const CellGraph& graph, int parts);
 
-// A function of the library, which is loaded first. Throws ConfigError if it cannot be, or if this build has none.
+// Returns a function of the library, which the first call loads. Throws ConfigError if there is no library, if it
+// cannot be loaded or if it lacks this function.
 void* petsc_function(const char* name);
 
 }  // namespace orthodyn

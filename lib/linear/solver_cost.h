@@ -1,12 +1,12 @@
-// What factors and iterations take, measured (docs/decisions.md): for choices between methods before a run.
+// Measured cost of factors and iterations (docs/decisions.md), to choose between methods before a run.
 #pragma once
 
 namespace orthodyn::solver_cost {
 
-// ns: of a factor for each of its entries, in a solution, and for each multiplication; of an iteration with multigrid
-// and of its set-up for each entry of the matrix, both triangles counted.
+// Times in ns. kSolve: a solution, per entry of the factor. kFactor: a factorisation, per multiplication. kIteration
+// and kSetUp: an iteration and the set-up of multigrid, per entry of the matrix (both triangles).
 inline constexpr double kSolve = 1, kFactor = 0.1, kIteration = 16, kSetUp = 330;
-inline constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
-inline constexpr double kIterations = 18;     // of a solution
+inline constexpr double kBytesPerEntry = 10;  // memory per entry of the factor, workspace included
+inline constexpr double kIterations = 18;     // iterations per solution
 
 }  // namespace orthodyn::solver_cost

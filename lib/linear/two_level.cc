@@ -6,12 +6,6 @@
 
 namespace orthodyn {
 
-namespace {
-
-constexpr int kLook = 4;  // iterations whose gain is compared with what there is
-
-}  // namespace
-
 class TwoLevelSolver::Smoother {
  public:
   explicit Smoother(const Eigen::Map<const SparseMatrix>& A) { factor_.compute(SparseMatrix(A)); }
@@ -32,14 +26,15 @@ TwoLevelSolver::TwoLevelSolver(const Pattern& pattern, const std::vector<double>
 
 TwoLevelSolver::~TwoLevelSolver() = default;
 
-TwoLevelSolver::Solution TwoLevelSolver::solve(const ConstVectorRef& b, double accuracy, int most) const {
+TwoLevelSolver::Solution TwoLevelSolver::solve(const ConstVectorRef& b, double accuracy, int max_iterations) const {
+  constexpr int kLastGains = 4;  // iterations whose gains are compared with the energy
   Solution out{Vector::Zero(b.size())};
   Vector r = b, Ap(b.size());
   const auto preconditioned = [&] { return Vector((*smoother_)(r) + coarse_(r)); };
   Vector z = preconditioned(), p = z;
   double rz = r.dot(z);
   std::vector<double> gains;
-  while (out.iterations < most && rz > 0) {
+  while (out.iterations < max_iterations && rz > 0) {
     pattern_.multiply(values_.data(), p, Ap);
     const double curvature = p.dot(Ap);
     if (!(curvature > 0)) throw IndefiniteMatrix("the matrix is not positive definite");
@@ -49,10 +44,10 @@ TwoLevelSolver::Solution TwoLevelSolver::solve(const ConstVectorRef& b, double a
     ++out.iterations;
     gains.push_back(alpha * rz);
     out.energy += gains.back();
-    double late = 0;
-    for (int k = 0; k < std::min<int>(kLook, out.iterations); ++k)
-      late += gains[gains.size() - 1 - static_cast<std::size_t>(k)];
-    if (out.iterations > kLook && late <= accuracy * out.energy) {
+    double last_gains = 0;
+    for (int k = 0; k < std::min<int>(kLastGains, out.iterations); ++k)
+      last_gains += gains[gains.size() - 1 - static_cast<std::size_t>(k)];
+    if (out.iterations > kLastGains && last_gains <= accuracy * out.energy) {
       out.converged = true;
       break;
     }

@@ -1,9 +1,9 @@
-// A x = b for a symmetric positive definite A of a fine space that holds a coarse one: conjugate gradients,
-// preconditioned by the sum of the coarse solution and an incomplete factor of A (a two-level additive Schwarz method;
-// Smith, Bjorstad & Gropp 1996, Domain Decomposition, ch. 2).
+// Solves A x = b for a symmetric positive definite A on a fine space that contains a coarse space: conjugate gradients,
+// preconditioned by the coarse solution plus an incomplete factor of A (two-level additive Schwarz method; Smith,
+// Bjorstad & Gropp 1996, Domain Decomposition, ch. 2).
 //
-// Of energy, x' A x, each iteration adds a part (Hestenes & Stiefel 1952): it stops where the last ones add little, and
-// what it has found is a lower bound.
+// Each iteration increases the energy x^T A x (Hestenes & Stiefel 1952). The iteration stops when the last gains are
+// small. The energy found is a lower bound of the exact energy.
 #pragma once
 
 #include <functional>
@@ -15,21 +15,21 @@ namespace orthodyn {
 
 class TwoLevelSolver {
  public:
-  // The solution of the coarse problem for a right side of the fine one, in the fine space: P A_coarse^-1 P' b.
+  // Returns the coarse solution P A_coarse^-1 P^T b for a right side b of the fine space, with the prolongation P.
   using CoarseSolution = std::function<Vector(const ConstVectorRef&)>;
 
-  // `values` of A on the pattern; both must outlive it.
+  // `values`: entries of A on the pattern. `pattern` and `values` must outlive this object.
   TwoLevelSolver(const Pattern& pattern, const std::vector<double>& values, CoarseSolution coarse);
   ~TwoLevelSolver();
 
   struct Solution {
     Vector x;
-    double energy = 0;  // x' A x
+    double energy = 0;  // x^T A x
     int iterations = 0;
     bool converged = false;
   };
-  // `accuracy`: the share of the energy that may be missing. `most`: iterations. Throws IndefiniteMatrix.
-  Solution solve(const ConstVectorRef& b, double accuracy, int most) const;
+  // `accuracy`: allowed relative error of the energy. Throws IndefiniteMatrix if A is not positive definite.
+  Solution solve(const ConstVectorRef& b, double accuracy, int max_iterations) const;
 
  private:
   class Smoother;

@@ -1,5 +1,4 @@
-// Sizes of matrices and operators, by which problems get units in which their entries are about one: libraries compare
-// with absolute thresholds.
+// Magnitudes of matrices and operators, to scale problems for libraries that use absolute thresholds.
 #pragma once
 
 #include <functional>
@@ -9,16 +8,18 @@
 
 namespace orthodyn {
 
-// 1 for what is no positive normal number.
+// Returns 1 if x is not a positive normal number.
 double nearest_power_of_two(double x);
 
-// Of a matrix on a symmetric pattern, n.
+// Return the diagonal and the dense form of a matrix on a symmetric pattern.
 Vector diagonal(const Pattern& pattern, const std::vector<double>& values);
+Eigen::MatrixXd dense_symmetric(const Pattern& pattern, const std::vector<double>& values);
 
-// The size of the operator x -> second(first(x)), n x n, by three steps of the power method from an irregular vector:
-// from below, its largest eigenvalue to some ten per cent where it is well above the others. At least the smallest
-// normal number. Both functions write to their second argument, of n entries.
+// Estimates the largest eigenvalue of the n x n operator x -> second(first(x)) by three steps of the power method,
+// starting from a vector without symmetry. The error is about ten per cent if that eigenvalue is well separated. The
+// result is at least the smallest positive normal number. Both functions write to their second argument, which has n
+// entries.
 using VectorFunction = std::function<void(const Vector&, Vector&)>;
-double operator_size(int n, const VectorFunction& first, const VectorFunction& second);
+double operator_norm(int n, const VectorFunction& first, const VectorFunction& second);
 
 }  // namespace orthodyn

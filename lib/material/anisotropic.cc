@@ -1,8 +1,7 @@
-// All 21 constants of C by name, as crystals, bone and homogenised composites are tabulated.
+// All 21 constants of C by name, as tabulated for crystals, bone and homogenised composites.
 //
-// Tables number the shear strains in three ways: 4, 5, 6 = 23, 13, 12 (most of them) or 12, 23, 31 (this
-// project's, and Li & Barbic's); Abaqus has 12, 13, 23. All readings are positive definite, so nothing could notice a
-// mistake: the order is a key without default.
+// The shear strains 4, 5, 6 are 23, 13, 12 in most tables, 12, 23, 31 in this project and Li & Barbic, 12, 13, 23 in
+// Abaqus. C is positive definite in every order, so a wrong order cannot be detected and the key has no default.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +10,6 @@
 
 #include "lib/material/anisotropy.h"
 #include "lib/material/material.h"
-#include "lib/material/repair.h"
 
 namespace orthodyn {
 
@@ -67,10 +65,10 @@ class Anisotropic : public Material {
     using A = Anisotropic;
     Spec<A> s;
     s.key("density", &A::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive});
-    s.key("voigt_order", &A::order_,
-          "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12, "
-          "Abaqus (abaqus) 12, 13, 23.",
-          {.required = true});
+    s.key(
+        "voigt_order", &A::order_,
+        "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12, Abaqus (abaqus) 12, 13, 23.",
+        {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
@@ -81,8 +79,7 @@ class Anisotropic : public Material {
     }
     s.key("repair", &A::repair_,
           "What to do with an unstable set. none: refuse it. shrink: multiply all constants off the diagonal by the "
-          "largest factor "
-          "that makes it stable, with a warning.");
+          "largest factor that makes it stable, with a warning.");
     s.check([](const A& a, const Config& config) {
       if (is_stable(a.given())) return;
       if (a.repair_ == RatioRepair::none) config.fail(a.explained());
@@ -92,7 +89,7 @@ class Anisotropic : public Material {
     return s;
   }
 
-  // In the order of stiffness.h.
+  // The given constants in the Voigt order of stiffness.h.
   AnisotropicStiffness given() const {
     constexpr std::array<int, 6> usual{0, 1, 2, 4, 5, 3}, ours{0, 1, 2, 3, 4, 5}, abaqus{0, 1, 2, 3, 5, 4};
     const auto& place = order_ == VoigtOrder::s23_13_12 ? usual : order_ == VoigtOrder::abaqus ? abaqus : ours;

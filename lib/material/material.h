@@ -1,9 +1,10 @@
-// A material: density and elasticity tensor in its own axes. One kind per file, chosen in the input
-// by `type` through Registry<Material>.
+// A material: density and elasticity tensor in its own axes. One type per file, registered in Registry<Material>.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/config/registry.h"
@@ -20,7 +21,7 @@ class Material {
   // Empty if no strengths are given; failure criteria are then unavailable.
   virtual std::optional<Strength> strength() const { return strength_; }
 
-  // Changes made to the input to make it usable, a sentence each.
+  // Changes made to the given constants, one sentence each.
   virtual std::vector<std::string> notes() const { return {}; }
 
  protected:
@@ -30,5 +31,19 @@ class Material {
 
 inline constexpr const char* kStrengthSentence =
     "Strengths along the material axes, for the fields max_stress, tsai_wu and hashin.";
+
+// Why a material cannot be used, as a sentence; "" if it can: its density is positive, and its stiffness finite,
+// symmetric and positive definite.
+std::string why_inadmissible(const Material& material);
+
+// What to do if the given constants make the stiffness indefinite. none: refuse them. shrink: multiply the constants
+// that couple strains by the largest common factor that makes it positive definite, with a warning.
+enum class RatioRepair { none, shrink };
+
+template <>
+struct EnumNames<RatioRepair> {
+  static constexpr std::array<std::pair<RatioRepair, const char*>, 2> list{
+      {{RatioRepair::none, "none"}, {RatioRepair::shrink, "shrink"}}};
+};
 
 }  // namespace orthodyn

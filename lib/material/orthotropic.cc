@@ -1,5 +1,5 @@
-// Orthotropic elasticity from nine engineering constants. Each pair (i, j) is named once; measured sets
-// that have both nu_ij and nu_ji may be averaged.
+// Orthotropic elasticity from nine engineering constants. Each Poisson's ratio is given as nu_ij, nu_ji, or both, of
+// which the mean is used.
 #include <fmt/format.h>
 
 #include <array>
@@ -8,19 +8,18 @@
 
 #include "lib/material/material.h"
 #include "lib/material/orthotropy.h"
-#include "lib/material/repair.h"
 
 namespace orthodyn {
 namespace {
 
-// One Poisson's ratio and its reverse, of which the user gives one or both.
+// nu_ij and nu_ji; the user gives one or both.
 struct Pair {
   std::string ij, ji;  // "nu12", "nu21"
   std::optional<double> nu_ij, nu_ji;
   double root;  // sqrt(E_i / E_j)
   std::string i, j;
 
-  // nu_ij by the mean of nu_ij / E_i and nu_ji / E_j, which symmetry wants equal.
+  // nu_ij from the mean of nu_ij / E_i and nu_ji / E_j, which are equal for a symmetric C.
   double forward() const {
     if (!nu_ji) return *nu_ij;
     const double from_reverse = *nu_ji * root * root;
@@ -53,8 +52,7 @@ class Orthotropic : public Material {
                  "For measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
             .key("repair", &O::repair_,
                  "What to do with an unstable set. none: refuse it. shrink: multiply all ratios by the largest factor "
-                 "that makes "
-                 "it stable, with a warning.")
+                 "that makes it stable, with a warning.")
             .check([](const O& o, const Config& config) {
               o.refuse_unpaired(config);
               if (!is_stable(o.given()) && o.repair_ == RatioRepair::none)
@@ -87,21 +85,20 @@ class Orthotropic : public Material {
     for (const Pair& p : pairs()) {
       if (!p.nu_ij && !p.nu_ji) config.fail(fmt::format("a Poisson's ratio is missing: give {} or {}", p.ij, p.ji));
       if (p.nu_ij && p.nu_ji && !symmetrise_)
-        config.fail(
-            fmt::format("{} and {} are the same constant ({} {} = {} {}); give one, or symmetrise: true to "
-                        "use their mean",
-                        p.ij, p.ji, p.ij, p.j, p.ji, p.i));
+        config.fail(fmt::format(
+            "{} and {} are the same constant ({} {} = {} {}); give one, or symmetrise: true to use their mean", p.ij,
+            p.ji, p.ij, p.j, p.ji, p.i));
     }
   }
 
   static std::string averaging(const Pair& p) {
-    const double a = *p.nu_ij / p.root, b = *p.nu_ji * p.root;  // r_ij, twice
+    const double a = *p.nu_ij / p.root, b = *p.nu_ji * p.root;  // r_ij from nu_ij and from nu_ji
     const double difference = a == b ? 0 : std::abs(a - b) / (0.5 * (std::abs(a) + std::abs(b)));
     return fmt::format("{}/{} and {}/{} differ by {:.3g} % of their mean; the mean is used: {}={:.6g}, {}={:.6g}", p.ij,
                        p.i, p.ji, p.j, 100 * difference, p.ij, p.forward(), p.ji, p.forward() / (p.root * p.root));
   }
 
-  // Which of the pairs 12, 23, 13 the user knows as nu_ji.
+  // True for those of the pairs 12, 23, 13 that the user gives as nu_ji.
   std::array<bool, 3> reversed() const { return {!nu12_, !nu23_, !nu13_}; }
 
   OrthotropicConstants given() const {
@@ -114,7 +111,7 @@ class Orthotropic : public Material {
     return is_stable(c) ? c : shrink_ratios(c, stabilising_factor(c));
   }
 
-  // Into the resolved input, where that is not what was given.
+  // Writes changed ratios into the resolved input.
   void write_used(const Config& config) const {
     const auto c = used();
     const std::array<double, 3> nu{c.nu12, c.nu23, c.nu13};

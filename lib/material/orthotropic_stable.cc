@@ -1,5 +1,5 @@
-// The one-parameter family of Li & Barbic (2014): nu_ij = nu sqrt(E_i/E_j), stable for every set of
-// moduli exactly if -1 < nu < 1/2; G_ij = sqrt(E_i E_j) / (2 (1 + nu)).
+// The one-parameter family of Li & Barbic (2014): nu_ij = nu sqrt(E_i/E_j), G_ij = sqrt(E_i E_j) / (2 (1 + nu)). Stable
+// for all moduli if and only if -1 < nu < 1/2.
 #include <cmath>
 
 #include "lib/material/material.h"
@@ -34,15 +34,8 @@ class OrthotropicStable : public Material {
   OrthotropicConstants constants() const {
     const auto& E = young_;
     const auto shear = [&](int i, int j) { return shear_factor_ * std::sqrt(E[i] * E[j]) / (2 * (1 + nu_)); };
-    OrthotropicConstants c;
-    c.young = E;
-    c.nu12 = nu_ * std::sqrt(E[0] / E[1]);
-    c.nu23 = nu_ * std::sqrt(E[1] / E[2]);
-    c.nu13 = nu_ * std::sqrt(E[0] / E[2]);
-    c.g12 = shear(0, 1);
-    c.g23 = shear(1, 2);
-    c.g13 = shear(0, 2);
-    return c;
+    const auto ratio = [&](int i, int j) { return nu_ * std::sqrt(E[i] / E[j]); };
+    return {E, ratio(0, 1), ratio(1, 2), ratio(0, 2), shear(0, 1), shear(1, 2), shear(0, 2)};
   }
 
   Vec3 young_ = Vec3::Zero();

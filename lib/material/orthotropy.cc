@@ -17,11 +17,11 @@ namespace orthodyn {
 
 namespace {
 
-// One Poisson's ratio as the user knows it: r = nu * factor.
+// A Poisson's ratio nu as given by the user; its scaled ratio is r = nu * factor.
 struct Ratio {
   std::string name, other;  // "nu12", "nu21"
   double nu, factor;
-  std::string moduli;  // "E1/E2": |nu| < sqrt of it
+  std::string moduli;  // "E1/E2"; stability needs |nu| < sqrt(E1/E2)
 };
 
 using Ratios = std::array<Ratio, 3>;
@@ -46,7 +46,7 @@ std::string listed(const Ratios& all, const char* each, double factor = 1) {
 
 double rho_determinant(const Vec3& r) { return 1 - r.squaredNorm() - 2 * r.prod(); }
 
-// The open interval of r[i] in which Rho is positive definite, the two others given (|others| < 1).
+// The open interval of r[i] in which Rho is positive definite, for given values of the other two (each |r| < 1).
 std::pair<double, double> admissible(const Vec3& r, int i) {
   const double a = r[(i + 1) % 3], b = r[(i + 2) % 3];
   const double half = std::sqrt((1 - a * a) * (1 - b * b));
@@ -78,17 +78,18 @@ std::string allowed_range(const Ratios& all, const Vec3& r) {
                      high / ratio.factor);
 }
 
-// Books differ in which ratio of a pair is nu12: whether the other one of the worst pair was meant.
+// Suggests the reverse ratio of the worst pair if that makes the set stable, because books differ in the meaning of
+// nu12.
 std::string likely_swap(const Ratios& all, Vec3 r) {
   const int worst = largest_ratio(r);
   const Ratio& ratio = all[static_cast<std::size_t>(worst)];
   r[worst] = ratio.nu / ratio.factor;
   if (r.cwiseAbs().maxCoeff() >= 1 || rho_determinant(r) <= 0) return "";
-  return fmt::format(" If your source means by {0} the contraction along {2} when stretched along {3}, give it as {1}.",
+  return fmt::format(" If {0} of your source is the contraction along {2} when stretched along {3}, give it as {1}.",
                      ratio.name, ratio.other, ratio.other[3], ratio.other[2]);
 }
 
-// The ratios stay as the user knows them.
+// Replaces Young's moduli and keeps the Poisson's ratios that the user gave (nu_ij or nu_ji).
 OrthotropicConstants with_young(OrthotropicConstants c, const Vec3& young, const std::array<bool, 3>& reversed) {
   const Vec3 factor = young.cwiseQuotient(c.young);
   if (reversed[0]) c.nu12 *= factor[0] / factor[1];
@@ -98,9 +99,9 @@ OrthotropicConstants with_young(OrthotropicConstants c, const Vec3& young, const
   return c;
 }
 
-// One modulus whose unit is likely another one: a thousand times as large or as small it is near to the others, and the
-// set is stable.
-std::string likely_unit_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+// Asks about the unit of a modulus that would be near the others, with a stable set, if it were 1000 times larger or
+// smaller.
+std::string likely_unit_error(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
   constexpr double kFar = 30;
   for (int i = 0; i < 3; ++i) {
     const double neighbour = c.young[(i + 1) % 3], other = c.young[(i + 2) % 3];
@@ -112,33 +113,32 @@ std::string likely_unit_slip(const OrthotropicConstants& c, const std::array<boo
       };
       if (fits(neighbour) && fits(other) && is_stable(with_young(c, meant, reversed)))
         return fmt::format(
-            "Is E{} = {:.4g} Pa of the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa "
-            "the constants are those of a stable material",
+            "Is E{} = {:.4g} Pa in the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa the material "
+            "is stable",
             i + 1, c.young[i], std::max(neighbour, other), std::min(neighbour, other), meant[i]);
     }
   }
   return "";
 }
 
-// Tables give the stiffest direction first.
-std::string likely_order_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+// Asks about the order of the moduli if the set is stable with the stiffest direction first, as in tables.
+std::string likely_order_error(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
   Vec3 meant = c.young;
   std::sort(meant.begin(), meant.end(), std::greater<>());
   if (meant == c.young || !is_stable(with_young(c, meant, reversed))) return "";
   return fmt::format(
-      "Are the moduli in the order of the axes 1, 2, 3? With {:.4g}, {:.4g}, {:.4g} Pa the constants "
-      "are those of a stable material",
+      "Are the moduli in the order of the axes 1, 2, 3? With {:.4g}, {:.4g}, {:.4g} Pa the material is stable",
       meant[0], meant[1], meant[2]);
 }
 
-// What to look at before the ratios, or nothing.
-std::string likely_modulus_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
-  std::string slip = likely_unit_slip(c, reversed);
-  if (slip.empty()) slip = likely_order_slip(c, reversed);
-  return slip.empty() ? "" : slip + ". Otherwise ";
+// A question about the moduli that precedes the complaint about the ratios, or "".
+std::string likely_modulus_error(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+  std::string question = likely_unit_error(c, reversed);
+  if (question.empty()) question = likely_order_error(c, reversed);
+  return question.empty() ? "" : question + ". Otherwise ";
 }
 
-// C's smallest eigenvalue, where C exists.
+// The smallest eigenvalue of C, if C exists, for messages.
 std::string smallest_eigenvalue(const OrthotropicConstants& c, const Vec3& r) {
   const double lambda = rho_eigenvalues(c)[0];
   if (std::abs(rho_determinant(r)) < 1e-12)
@@ -159,7 +159,7 @@ Vec3 scaled_ratios(const OrthotropicConstants& c) {
   return r;
 }
 
-// Not by the trigonometric formula: where two eigenvalues coincide it keeps half the digits only.
+// The trigonometric formula is not used, because it loses half the digits if two eigenvalues coincide.
 Vec3 rho_eigenvalues(const OrthotropicConstants& c) {
   const Vec3 r = scaled_ratios(c);
   Mat3 rho;
@@ -210,7 +210,7 @@ std::string explain_instability(const OrthotropicConstants& c, const std::array<
   const double factor = stabilising_factor(c);
   return fmt::format(
       "{}{} make the stiffness indefinite: {} ({}). {}{} Nearest stable set (all ratios times {:.4g}): {}",
-      likely_modulus_slip(c, reversed), listed(all, "{}={:.4g}"), violated_inequality(all, r),
+      likely_modulus_error(c, reversed), listed(all, "{}={:.4g}"), violated_inequality(all, r),
       smallest_eigenvalue(c, r), allowed_range(all, r), likely_swap(all, r), factor, listed(all, "{}: {:.6g}", factor));
 }
 

@@ -1,4 +1,4 @@
-// A material by its name in the table of presets.
+// A material from the table of presets, by name.
 #include <fmt/format.h>
 
 #include "lib/material/material.h"
@@ -23,8 +23,8 @@ class PresetMaterial : public Material {
               const auto& preset = p.preset();
               if (!p.own_density_ && !preset.density)
                 config.fail(
-                    fmt::format("'density' is missing: {} has no measured density in its source ({}); give the "
-                                "one of your material in kg/m^3",
+                    fmt::format("'density' is missing: {} has no measured density in its source ({}); give the one of "
+                                "your material in kg/m^3",
                                 preset.name, preset.source));
               if (!p.own_density_) config.fill("density", number_text(*preset.density));
             });

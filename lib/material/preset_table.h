@@ -1,15 +1,15 @@
-// Measured orthotropic constants, as their sources print them. Converted and named in presets.h.
+// Measured orthotropic constants as printed in their sources; presets.h converts them.
 //
 // Wood: USDA Forest Service, Wood Handbook, FPL-GTR-282 (2021), tables 5-1 (ratios of moduli), 5-2
 // (Poisson's ratios) and 5-3a (modulus of elasticity in bending, increased by 10 % as the book says, and
 // specific gravity), at 12 % moisture content. Axes: 1 = L, along the grain; 2 = R, radial; 3 = T,
-// tangential. Of each pair of Poisson's ratios the larger: the book's nu_RL, nu_TL, nu_TR are the less
-// accurate ones and break the symmetry of the compliance by up to 113 %.
+// tangential. The larger Poisson's ratio of each pair is used: the book's nu_RL, nu_TL, nu_TR are less accurate and
+// violate the symmetry of the compliance by up to 113 %.
 //
-// Strengths from table 5-3a at 12 %, for clear wood, averages of a species: modulus of rupture, which the book takes
-// for the tension along the grain, on the safe side; compression along and across (the latter at the proportional
-// limit); shear along; tension across. R and T are not told apart. Of rolling shear (plane 2-3) the book says that it
-// is 18 to 28 % of the shear along: the smaller.
+// Strengths are from table 5-3a at 12 %: averages of a species for clear wood. Tension along the grain is the modulus
+// of rupture, which the book uses as a conservative value. Compression across the grain is at the proportional limit.
+// The table does not distinguish R and T. According to the book, rolling shear (plane 2-3) is 18 to 28 % of the shear
+// along the grain; the smaller value is used.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ namespace orthodyn {
 struct WoodRow {
   const char* name;
   double E_L;                         // GPa
-  double E_R, E_T, G_LR, G_LT, G_RT;  // over E_L
+  double E_R, E_T, G_LR, G_LT, G_RT;  // relative to E_L
   double nu_LR, nu_LT, nu_RT;
   double density;  // kg/m^3; 0: not in the tables
   // MPa; 0: not in the tables
   double rupture = 0, compression_along = 0, compression_across = 0, shear_along = 0, tension_across = 0;
 };
 
-inline constexpr double kRollingShear = 0.18;  // of the shear along
+inline constexpr double kRollingShear = 0.18;  // relative to shear along the grain
 
 inline constexpr std::array<WoodRow, 10> kWoodRows{{
     {"sitka_spruce", 11.88, 0.078, 0.043, 0.064, 0.061, 0.003, 0.372, 0.467, 0.435, 448, 70, 38.7, 4.0, 7.9, 2.6},

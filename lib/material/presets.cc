@@ -18,16 +18,8 @@ std::optional<Strength> strength_of(const WoodRow& row) {
 
 Preset wood(const WoodRow& row) {
   const double E = row.E_L * kGiga;
-  OrthotropicConstants c;
-  c.young = {E, row.E_R * E, row.E_T * E};
-  c.nu12 = row.nu_LR;
-  c.nu23 = row.nu_RT;
-  c.nu13 = row.nu_LT;
-  c.g12 = row.G_LR * E;
-  c.g23 = row.G_RT * E;
-  c.g13 = row.G_LT * E;
   return {row.name,
-          c,
+          {{E, row.E_R * E, row.E_T * E}, row.nu_LR, row.nu_RT, row.nu_LT, row.G_LR * E, row.G_RT * E, row.G_LT * E},
           given(row.density),
           strength_of(row),
           "1 = L along the grain, 2 = R radial, 3 = T tangential",
@@ -35,15 +27,10 @@ Preset wood(const WoodRow& row) {
 }
 
 Preset composite(const CompositeRow& row) {
-  OrthotropicConstants c;
-  c.young = kGiga * Vec3(row.E1, row.E2, row.E3);
-  c.nu12 = row.nu12;
-  c.nu23 = row.nu23;
-  c.nu13 = row.nu13;
-  c.g12 = row.G12 * kGiga;
-  c.g23 = row.G23 * kGiga;
-  c.g13 = row.G13 * kGiga;
-  return {row.name, c, given(row.density), std::nullopt, row.axes, row.source};
+  const Vec3 young = kGiga * Vec3(row.E1, row.E2, row.E3);
+  return {row.name,           {young, row.nu12, row.nu23, row.nu13, row.G12 * kGiga, row.G23 * kGiga, row.G13 * kGiga},
+          given(row.density), std::nullopt,
+          row.axes,           row.source};
 }
 
 std::vector<Preset> convert() {

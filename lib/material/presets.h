@@ -1,4 +1,4 @@
-// Materials by name: measured constants with their source.
+// Presets: measured constants of named materials, with their sources.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,15 @@ namespace orthodyn {
 struct Preset {
   std::string name;
   OrthotropicConstants constants;    // Pa
-  std::optional<double> density;     // kg/m^3; none: the source has none
-  std::optional<Strength> strength;  // likewise
-  std::string axes;                  // what 1, 2, 3 are
+  std::optional<double> density;     // kg/m^3; none if the source gives none
+  std::optional<Strength> strength;  // none if the source gives none
+  std::string axes;                  // meaning of 1, 2, 3
   std::string source;
 };
 
 const std::vector<Preset>& presets();
 
-// The index into presets().
+// A preset as its index into presets().
 enum class PresetName : int {};
 
 template <>

@@ -26,7 +26,7 @@ struct IsotropicStiffness {
   }
 };
 
-// Nine constants: normal and shear parts decoupled.
+// Nine constants, as normal and shear strains are decoupled.
 struct OrthotropicStiffness {
   static constexpr bool kIsotropic = false;
   double c11 = 0, c22 = 0, c33 = 0, c12 = 0, c23 = 0, c31 = 0;
@@ -81,7 +81,7 @@ using Stiffness = std::variant<IsotropicStiffness, OrthotropicStiffness, Anisotr
 OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c);
 inline const OrthotropicStiffness& as_orthotropic(const OrthotropicStiffness& c) { return c; }
 
-// What tangents are made of: the form that C keeps in its own axes under sums and multiples.
+// The type of C in tangents, chosen so that sums and multiples have the same type.
 inline OrthotropicStiffness as_tangent(const IsotropicStiffness& c) { return as_orthotropic(c); }
 inline const OrthotropicStiffness& as_tangent(const OrthotropicStiffness& c) { return c; }
 inline const AnisotropicStiffness& as_tangent(const AnisotropicStiffness& c) { return c; }
@@ -99,8 +99,8 @@ Mat6 voigt(const Stiffness& c);
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c);
 IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c);
 
-// Matrix K with sigma' = K sigma for sigma' = Q sigma Q^T, where the columns of Q are the material
-// axes: then C' = K C K^T (Li & Barbic 2014, section 3).
+// The 6x6 matrix K that rotates stresses in Voigt form from material axes, the columns of Q, to global axes: K sigma is
+// the Voigt form of Q sigma Q^T. The stiffness in global axes is K C K^T (Li & Barbic 2014, section 3).
 Mat6 stress_rotation(const Mat3& Q);
 
 }  // namespace orthodyn

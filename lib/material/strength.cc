@@ -10,7 +10,7 @@ namespace {
 
 double square(double x) { return x * x; }
 
-// 1/R where R > 0 solves quadratic R^2 + linear R = 1; 0 where none does: that stress alone never fails.
+// 1/R, where R > 0 solves quadratic R^2 + linear R = 1; 0 if there is no such R and the stress never causes failure.
 double exposure(double quadratic, double linear) {
   return 0.5 * (linear + std::sqrt(std::max(linear * linear + 4 * quadratic, 0.0)));
 }

@@ -1,15 +1,14 @@
-// One stiff or soft direction, axis 1 (the fibre), and isotropy in the plane 2-3 normal to it:
+// Transverse isotropy: axis 1 is the fibre, the plane 2-3 is isotropic:
 //     E1 = young_axial, E2 = E3 = young_transverse, nu12 = nu13 = nu_axial, nu23 = nu_transverse,
 //     G12 = G13 = shear_axial, G23 = E2 / (2 (1 + nu23)).
-// Rho has the eigenvalue 1 + nu23 (axial vector 2 - 3) and the 2x2 block of 1 and the sum over 2, 3:
-// stable exactly if |nu23| < 1 and 1 - nu23 - 2 nu12^2 E2/E1 > 0.
+// With the unit vectors e_i, Rho (orthotropy.h) has the eigenvector e2 - e3 with the eigenvalue 1 + nu23, and a 2x2
+// block on e1 and e2 + e3. The material is stable if and only if |nu23| < 1 and 1 - nu23 - 2 nu12^2 E2/E1 > 0.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "lib/material/material.h"
 #include "lib/material/orthotropy.h"
-#include "lib/material/repair.h"
 
 namespace orthodyn {
 namespace {
@@ -35,8 +34,7 @@ class TransverselyIsotropic : public Material {
             .key("strength", &M::strength_, kStrengthSentence)
             .key("repair", &M::repair_,
                  "What to do with an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor "
-                 "that makes "
-                 "it stable, with a warning.")
+                 "that makes it stable, with a warning.")
             .check([](const M& m, const Config& config) {
               if (m.is_given_stable()) return;
               if (m.repair_ == RatioRepair::none) config.fail(m.explained());
@@ -51,13 +49,13 @@ class TransverselyIsotropic : public Material {
   std::vector<std::string> notes() const override {
     if (is_given_stable()) return {};
     return {
-        fmt::format("nu_axial={:.4g}, nu_transverse={:.4g} make the stiffness indefinite ({}); both were multiplied "
-                    "by {:.4g}, used are nu_axial={:.6g}, nu_transverse={:.6g}",
+        fmt::format("nu_axial={:.4g}, nu_transverse={:.4g} make the stiffness indefinite ({}); both were multiplied by "
+                    "{:.4g}, used are nu_axial={:.6g}, nu_transverse={:.6g}",
                     nu_axial_, nu_transverse_, violated(), factor(), factor() * nu_axial_, factor() * nu_transverse_)};
   }
 
  private:
-  // With both ratios times s.
+  // The constants with both Poisson's ratios multiplied by s.
   OrthotropicConstants constants(double s) const {
     OrthotropicConstants c;
     c.young = {young_axial_, young_transverse_, young_transverse_};
@@ -70,7 +68,7 @@ class TransverselyIsotropic : public Material {
 
   double factor() const { return stabilising_factor(constants(1)); }
 
-  // G23 need not be looked at: nu23 > -1 is among the conditions.
+  // nu23 > -1 implies G23 > 0.
   bool is_given_stable() const { return nu_transverse_ > -1 && is_stable(constants(1)); }
 
   double determinant() const {

@@ -1,4 +1,4 @@
-// `axes: {type: along}`: L follows a curve through points: a branch, a muscle, a bent tube.
+// `axes: {type: along}`: L along a curve through points, for a branch, a muscle, a bent tube.
 #include "lib/config/csv_table.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/material_axes/curve.h"
@@ -20,38 +20,38 @@ namespace {
 class Along : public AxesSource {
  public:
   static const Spec<Along>& spec() {
-    static const auto s =
-        Spec<Along>()
-            .key("points", &Along::points_,
-                 "Points of the curve that L follows: a centripetal Catmull-Rom spline. Each element has the tangent "
-                 "at the curve's nearest point.",
-                 {.unit = "m"})
-            .key("file", &Along::file_,
-                 "Or a CSV file of the points with the columns x,y,z (m); relative to the scene.")
-            .key("across", &Along::across_,
-                 "Where R points. radial: away from the curve; carried: `start_normal`, carried along the curve "
-                 "without turning about it, the same in a whole cross-section. Elements on the curve always have the "
-                 "latter.")
-            .key("start_normal", &Along::start_normal_,
-                 "The carried direction where the curve starts; default the coordinate axis least along it, made "
-                 "normal to it.")
-            .key("order", &Along::order_, kLrtSentence)
-            .key("spiral", &Along::spiral_, kSpiralSentence, {.unit = "rad", .range = kSpiralRange})
-            .check([](const Along& a, const Config& config) {
-              if (a.points_.has_value() == a.file_.has_value()) config.fail("give exactly one of points, file");
-              if (!a.points_) return;
-              const Config points = config.at("points");
-              check_points(*a.points_, [&](const std::string& sentence) { points.fail(sentence); });
-            });
+    static const auto s = Spec<Along>()
+                              .key("points", &Along::points_,
+                                   "Points of the curve that L follows, a centripetal Catmull-Rom spline. L is the "
+                                   "tangent at the nearest point of the curve.",
+                                   {.unit = "m"})
+                              .key("file", &Along::file_,
+                                   "Instead of `points`, a CSV file with the columns x,y,z (m); relative to the scene.")
+                              .key("across", &Along::across_,
+                                   "Direction of R. radial: away from the curve; carried: `start_normal`, transported "
+                                   "along the curve without rotation about it, the same in a whole cross-section. "
+                                   "Elements on the curve always use carried.")
+                              .key("start_normal", &Along::start_normal_,
+                                   "The carried direction at the start of the curve; default: the coordinate axis "
+                                   "least aligned with the curve, projected normal to it.")
+                              .key("order", &Along::order_, kLrtSentence)
+                              .key("spiral", &Along::spiral_, kSpiralSentence, {.unit = "rad", .range = kSpiralRange})
+                              .check([](const Along& a, const Config& config) {
+                                if (a.points_.has_value() == a.file_.has_value())
+                                  config.fail("give exactly one of points, file");
+                                if (!a.points_) return;
+                                const Config points = config.at("points");
+                                check_points(*a.points_, [&](const std::string& sentence) { points.fail(sentence); });
+                              });
     return s;
   }
 
   AxesField field(const TetMesh&, Warnings&) const override {
     const auto curve = std::make_shared<const Curve>(make_curve());
     return [this, curve](const Vec3& place, int) {
-      const Curve::Foot foot = curve->nearest(place);
+      const Curve::FootPoint foot = curve->nearest(place);
       Vec3 arm = place - foot.point;
-      arm -= foot.tangent.dot(arm) * foot.tangent;  // beyond an end
+      arm -= foot.tangent.dot(arm) * foot.tangent;  // has an effect only beyond the ends of the curve
       const bool on_the_curve = !(arm.norm() > 1e-9 * curve->length());
       const Vec3& radial = across_ == Across::carried || on_the_curve ? foot.normal : arm;
       return lrt_axes(foot.tangent, radial, order_, spiral_);
@@ -68,7 +68,7 @@ class Along : public AxesSource {
     for (const Vec3& p : points) extent = extent.cwiseMax((p - points[0]).cwiseAbs());
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       if (!((points[i + 1] - points[i]).norm() > 1e-9 * extent.norm()))
-        refuse(fmt::format("points {} and {} are at the same place; remove one", i, i + 1));
+        refuse(fmt::format("points {} and {} coincide; remove one", i, i + 1));
   }
 
   std::vector<Vec3> read_points() const {
@@ -86,7 +86,7 @@ class Along : public AxesSource {
     Curve curve(points);
     if (!start_normal_) return curve;
     if (start_normal_->isZero(0) || !are_independent(curve.start_tangent(), *start_normal_))
-      origin.fail(fmt::format("start_normal is zero or along the curve's start {}; give a direction across it",
+      origin.fail(fmt::format("start_normal is zero or parallel to the curve's start {}; give a direction across it",
                               Value<Vec3>::yaml(curve.start_tangent())));
     return Curve(points, start_normal_);
   }
@@ -100,7 +100,7 @@ class Along : public AxesSource {
 };
 
 const bool along_registered = Registry<AxesSource>::add<Along>(
-    "along", "L along a smooth curve through points, where the law is evaluated: a branch, a muscle.");
+    "along", "L along a smooth curve through points, at each integration point: a branch, a muscle.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -28,7 +28,7 @@ AxesRows read_axes_csv(const FilePath& file) {
     }
   AxesRows out{{}, third, !table.has("element"), file.path, {}};
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    const int element = out.every ? static_cast<int>(k) : table.index(k, "element");
+    const int element = out.one_per_element ? static_cast<int>(k) : table.index(k, "element");
     Mat3 m = Mat3::Zero();
     for (std::size_t i = 0; i < columns.size(); ++i) m(static_cast<Eigen::Index>(i)) = table.at(k, columns[i]);
     out.rows.push_back({element, m, table.lines[k]});
@@ -36,7 +36,7 @@ AxesRows read_axes_csv(const FilePath& file) {
   return out;
 }
 
-// Where the three components of an axis stand in the cell data of a mesh.
+// The three components of an axis in the cell data of a mesh.
 struct Components {
   const CellData* data = nullptr;
   std::size_t first = 0;
@@ -62,7 +62,6 @@ std::vector<Components> axes_of(const LoadedMesh& loaded, const std::string& pat
                                       names.empty() ? "none" : join(names)));
 }
 
-// Of the cell data of a mesh file.
 AxesRows read_axes_mesh(const FilePath& file) {
   LoadedMesh loaded = read_mesh(file.path);
   const auto axes = axes_of(loaded, file.path);

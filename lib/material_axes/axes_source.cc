@@ -2,12 +2,6 @@
 
 namespace orthodyn {
 
-Vec3 centroid(const TetMesh& mesh, int cell) {
-  Vec3 sum = Vec3::Zero();
-  for (const int node : mesh.tets[static_cast<std::size_t>(cell)]) sum += mesh.nodes[static_cast<std::size_t>(node)];
-  return sum / 4;
-}
-
 ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementMesh& mesh,
                          const std::vector<int>& cells) {
   const auto points_of = [&](int cell) { return mesh.type.points(mesh.positions(static_cast<std::size_t>(cell))); };

@@ -1,4 +1,4 @@
-// `axes: {type: axis_angle}`: x, y, z turned about a direction, the same in all elements.
+// `axes: {type: axis_angle}`: x, y, z rotated about a direction, the same in all elements.
 #include "lib/material_axes/axes_source.h"
 
 namespace orthodyn {
@@ -9,9 +9,8 @@ class AxisAngle : public AxesSource {
   static const Spec<AxisAngle>& spec() {
     static const auto s =
         Spec<AxisAngle>()
-            .key("axis", &AxisAngle::axis_, "Direction that x, y, z are turned about, of any length.",
-                 {.required = true})
-            .key("angle", &AxisAngle::angle_, "By how much, right-handed.", {.required = true, .unit = "rad"})
+            .key("axis", &AxisAngle::axis_, "Direction of the rotation axis, of any length.", {.required = true})
+            .key("angle", &AxisAngle::angle_, "Rotation angle, right-handed.", {.required = true, .unit = "rad"})
             .check([](const AxisAngle& a, const Config& config) {
               if (a.axis_.isZero(0)) config.at("axis").fail("is zero; give a direction");
             });
@@ -31,7 +30,7 @@ class AxisAngle : public AxesSource {
 };
 
 const bool axis_angle_registered =
-    Registry<AxesSource>::add<AxisAngle>("axis_angle", "x, y, z turned about a direction.");
+    Registry<AxesSource>::add<AxisAngle>("axis_angle", "x, y, z rotated about a direction.");
 
 }  // namespace
 }  // namespace orthodyn

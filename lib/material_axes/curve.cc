@@ -10,9 +10,9 @@ namespace orthodyn {
 
 namespace {
 
-constexpr std::size_t kChords = 16;  // of a piece, to start the search from
+constexpr std::size_t kChords = 16;  // chords per piece, for the first guess of the search
 
-// dc/dt at the points, t being the centripetal parameter with steps d.
+// The derivatives of the curve at the points with respect to the centripetal parameter, whose steps are d.
 std::vector<Vec3> derivatives(const std::vector<Vec3>& p, const std::vector<double>& d) {
   const std::size_t n = p.size();
   std::vector<Vec3> m(n);
@@ -24,7 +24,7 @@ std::vector<Vec3> derivatives(const std::vector<Vec3>& p, const std::vector<doub
   return m;
 }
 
-// The reflection of v at the plane normal to `mirror`.
+// Reflection of v at the plane normal to `mirror`.
 Vec3 reflected(const Vec3& v, const Vec3& mirror) {
   const double square = mirror.squaredNorm();
   return square > 0 ? Vec3(v - 2 * mirror.dot(v) / square * mirror) : v;
@@ -83,8 +83,8 @@ void Curve::carry(Vec3 normal) {
   }
 }
 
-Curve::Start Curve::nearest_chord(const Vec3& x) const {
-  Start best{0, std::numeric_limits<double>::infinity()};
+Curve::Guess Curve::nearest_chord(const Vec3& x) const {
+  Guess best{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     if ((x - pieces_[i].center).norm() - pieces_[i].radius > best.distance) continue;
     for (std::size_t k = i * kChords; k < (i + 1) * kChords; ++k) {
@@ -97,9 +97,9 @@ Curve::Start Curve::nearest_chord(const Vec3& x) const {
   return best;
 }
 
-// Where (c(s) - x) . c'(s) changes its sign within a chord of the start, by bisection: the tangent's
-// derivative jumps at the points, which Newton's method would feel.
-double Curve::refined(const Vec3& x, const Start& start) const {
+// Solves (c(s) - x) . c'(s) = 0 within a chord of the first guess. Bisection, because the derivative of the tangent
+// jumps at the points, where Newton's method may fail.
+double Curve::refined(const Vec3& x, const Guess& start) const {
   const auto slope = [&](double s) { return (at(s) - x).dot(derivative(s)); };
   const double step = 1 / static_cast<double>(kChords);
   double low = std::max(0.0, start.s - step);
@@ -113,7 +113,7 @@ double Curve::refined(const Vec3& x, const Start& start) const {
   return 0.5 * (low + high);
 }
 
-Curve::Foot Curve::nearest(const Vec3& x) const {
+Curve::FootPoint Curve::nearest(const Vec3& x) const {
   const double s = refined(x, nearest_chord(x));
   const double k = std::min(std::floor(s * kChords), static_cast<double>(samples_.size() - 2)), t = s * kChords - k;
   const auto i = static_cast<std::size_t>(k);

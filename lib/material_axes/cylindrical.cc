@@ -1,4 +1,4 @@
-// `axes: {type: cylindrical}`: along, radial and tangential about a straight axis: a stem, a tube.
+// `axes: {type: cylindrical}`: axial, radial and tangential about a straight axis, for a stem or a tube.
 #include "lib/material_axes/axes_source.h"
 #include "lib/material_axes/frame.h"
 #include "lib/material_axes/lrt.h"
@@ -13,8 +13,8 @@ class Cylindrical : public AxesSource {
         Spec<Cylindrical>()
             .key("point", &Cylindrical::point_, "A point of the axis.", {.unit = "m"})
             .key("axis", &Cylindrical::axis_,
-                 "Direction L of the axis, of any length. For elements centred on it R is the coordinate axis least "
-                 "along it, made normal to it.")
+                 "Direction L of the axis, of any length. On the axis itself, R is the coordinate axis least aligned "
+                 "with it, projected normal to it.")
             .key("order", &Cylindrical::order_, kLrtSentence)
             .key("spiral", &Cylindrical::spiral_, kSpiralSentence, {.unit = "rad", .range = kSpiralRange})
             .check([](const Cylindrical& c, const Config& config) {
@@ -38,7 +38,7 @@ class Cylindrical : public AxesSource {
 };
 
 const bool cylindrical_registered = Registry<AxesSource>::add<Cylindrical>(
-    "cylindrical", "L, R, T about a straight axis, where the law is evaluated: a stem, a tube.");
+    "cylindrical", "L, R, T about a straight axis, at each integration point: a stem, a tube.");
 
 }  // namespace
 }  // namespace orthodyn

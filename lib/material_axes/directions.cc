@@ -11,15 +11,15 @@ namespace {
 class Directions : public AxesSource {
  public:
   static const Spec<Directions>& spec() {
-    static const auto s = Spec<Directions>()
-                              .key("first", &Directions::first_, "Direction of material axis 1, of any length.")
-                              .key("second", &Directions::second_,
-                                   "Material axis 2 is the part of this direction normal to axis 1; axis 3 = 1 x 2.")
-                              .key("third", &Directions::third_,
-                                   "Direction of axis 3. If given, all three are used as they are, and must be "
-                                   "orthogonal and right-handed.")
-                              .key("repair", &Directions::repair_, kRepairSentence)
-                              .check([](const Directions& d, const Config& config) { d.check(config); });
+    static const auto s =
+        Spec<Directions>()
+            .key("first", &Directions::first_, "Direction of material axis 1, of any length.")
+            .key("second", &Directions::second_,
+                 "Material axis 2 is the part of this direction normal to axis 1; axis 3 = 1 x 2.")
+            .key("third", &Directions::third_,
+                 "Direction of axis 3. If given, all three are used unchanged and must be orthogonal and right-handed.")
+            .key("repair", &Directions::repair_, kRepairSentence)
+            .check([](const Directions& d, const Config& config) { d.check(config); });
     return s;
   }
 
@@ -43,7 +43,6 @@ class Directions : public AxesSource {
     if (third_) check_axes(columns(), repair_, [&](const std::string& sentence) { config.fail(sentence); });
   }
 
-  // Their lengths mean nothing.
   Mat3 columns() const {
     Mat3 m;
     m << first_.stableNormalized(), second_.stableNormalized(), third_->stableNormalized();

@@ -24,19 +24,18 @@ struct EnumNames<EulerConvention> {
 
 namespace {
 
-// Q = R_a(angle 1) R_b(angle 2) R_c(angle 3) for the convention abc: a turn about a of space, then about
-// the turned b, then about the twice turned c (intrinsic); the same as about c, b, a of space (extrinsic).
+// Q = R_a(angle 1) R_b(angle 2) R_c(angle 3) for the convention abc. These are rotations about a, then the rotated b,
+// then the twice rotated c (intrinsic), or equivalently about the fixed c, then b, then a (extrinsic).
 class Euler : public AxesSource {
  public:
   static const Spec<Euler>& spec() {
-    static const auto s =
-        Spec<Euler>()
-            .key("angles", &Euler::angles_, "The three angles, in the order of the convention.",
-                 {.required = true, .unit = "rad"})
-            .key("convention", &Euler::convention_,
-                 "About which axes, intrinsic: zyx turns x, y, z about z, then about the new y, then about the "
-                 "new x; the result is the axes 1, 2, 3.",
-                 {.required = true});
+    static const auto s = Spec<Euler>()
+                              .key("angles", &Euler::angles_, "The three angles, in the order of the convention.",
+                                   {.required = true, .unit = "rad"})
+                              .key("convention", &Euler::convention_,
+                                   "Rotation axes, intrinsic: zyx rotates x, y, z about z, then about the new y, then "
+                                   "about the new x; the result is the axes 1, 2, 3.",
+                                   {.required = true});
     return s;
   }
 

@@ -1,4 +1,4 @@
-// `axes: {type: file}`: the axes of each element from a file, as measured or as computed elsewhere.
+// `axes: {type: file}`: the axes of each element from a file, measured or computed elsewhere.
 #include <cmath>
 
 #include "lib/material_axes/axes_rows.h"
@@ -15,13 +15,11 @@ class AxesFile : public AxesSource {
     static const auto s =
         Spec<AxesFile>()
             .key("file", &AxesFile::file_,
-                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and optionally a3x,a3y,a3z and element (index from 0, "
-                 "as the mesh file counts its solid elements). "
-                 "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh "
-                 "with the "
-                 "cell data axis_1, axis_2 and optionally axis_3, or axes (9 components: axis 1, axis 2, axis 3). "
-                 "Or an Abaqus file (.inp) of the same mesh, for the orientations of its sections; relative to the "
-                 "scene.",
+                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and optionally a3x,a3y,a3z and element (index from 0 "
+                 "among the solid elements of the mesh file); without element, one row per element in mesh order. Or "
+                 "VTU of the same mesh with the cell data axis_1, axis_2 and optionally axis_3, or axes (9 components: "
+                 "axis 1, axis 2, axis 3). Or an Abaqus file (.inp) of the same mesh with section orientations. "
+                 "Relative to the scene.",
                  {.required = true})
             .key("repair", &AxesFile::repair_, kRepairSentence);
     return s;
@@ -29,16 +27,17 @@ class AxesFile : public AxesSource {
 
   AxesField field(const TetMesh& mesh, Warnings& notes) const override {
     const AxesRows given = read_axes_rows(file_);
-    // Rows of CSV stand for the elements of the mesh file, from which several tets may have been cut.
+    // CSV rows refer to elements of the mesh file, which may have been split into several tets.
     const std::vector<int> cell_of = given.mesh ? std::vector<int>{} : mesh.cell_of;
     const auto num_elements = given.mesh        ? given.mesh->tets.size()
                               : cell_of.empty() ? mesh.tets.size()
                                                 : static_cast<std::size_t>(cell_of.back()) + 1;
-    if (given.every && given.rows.size() != num_elements)
+    if (given.one_per_element && given.rows.size() != num_elements)
       throw ConfigError(
-          given.path, fmt::format("{} rows for a mesh of {} elements{}; give one for each, or a column 'element'",
-                                  given.rows.size(), num_elements,
-                                  cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
+          given.path,
+          fmt::format("{} rows for a mesh of {} elements{}; give one row per element, or a column 'element'",
+                      given.rows.size(), num_elements,
+                      cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
     const std::size_t children = given.mesh ? children_in(given, mesh) : 1;
     if (given.mesh) check_same_mesh(given, mesh, children);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
@@ -60,28 +59,27 @@ class AxesFile : public AxesSource {
   }
 
  private:
-  // Into how many each of the file's tets was divided by `refine`: 1, 8, 64, ...; the children of tet k follow each
-  // other (lib/mesh/refine.h).
+  // Number of children of each tet of the file after `refine`: 1, 8, 64, ... Children of a tet are consecutive
+  // (lib/mesh/refine.h).
   static std::size_t children_in(const AxesRows& given, const TetMesh& mesh) {
     const std::size_t there = given.mesh->tets.size(), here = mesh.tets.size();
     std::size_t children = 1;
     while (there * children < here) children *= 8;
     if (there * children != here)
       throw ConfigError(given.path,
-                        fmt::format("{} tetrahedra for a mesh of {}; the axes are of another mesh", there, here));
+                        fmt::format("{} tetrahedra for a mesh of {}; the axes belong to another mesh", there, here));
     return children;
   }
 
-  // The mean of the corners of a tet, or of the children of one. Those of straight edges have the same: the four at the
-  // corners lie around it, and so do the four of the octahedron between them.
+  // Mean of the centroids of the children of a tet, which is the centroid of the tet if its edges are straight.
   static Vec3 centre(const TetMesh& mesh, std::size_t tet, std::size_t children) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < children; ++k) sum += centroid(mesh, static_cast<int>(tet * children + k));
     return sum / static_cast<double>(children);
   }
 
-  // That elements lie in the same places up to a shift and a scale (`scale: 0.001` of a mesh in mm). Curved edges shift
-  // the children by less than a quarter of an element.
+  // Checks that the elements of both meshes have the same positions up to a translation and a scale (`scale: 0.001` for
+  // mm). Curved edges shift the children by less than a quarter of an element.
   static void check_same_mesh(const AxesRows& given, const TetMesh& mesh, std::size_t children) {
     const std::size_t count = given.mesh->tets.size();
     if (count < 2) return;
@@ -100,17 +98,17 @@ class AxesFile : public AxesSource {
       const double size = std::cbrt(std::abs(signed_volume6(*given.mesh, given.mesh->tets[e]))) / there.diagonal();
       if (!((a - b).norm() < (children == 1 ? 1e-4 : std::max(1e-4, 0.25 * size))))
         throw ConfigError(given.path,
-                          fmt::format("cell {} is not where element {} of the scene's mesh is; the axes are of another "
-                                      "mesh, or its elements or nodes have another order",
+                          fmt::format("cell {} and element {} of the scene's mesh have different positions; the axes "
+                                      "belong to another mesh, or its elements or nodes have another order",
                                       e, e));
     }
   }
 
-  // Of unit length, with the third filled in.
+  // The axes with unit length; axis 3 is added if it is missing.
   static Mat3 columns(const AxesRows& given, const AxesRows::Row& row) {
     Mat3 m;
     for (int i = 0; i < 3; ++i) m.col(i) = row.columns.col(i).stableNormalized();
-    if (!given.third) m.col(2) = m.col(0).cross(m.col(1)).stableNormalized();
+    if (!given.has_third) m.col(2) = m.col(0).cross(m.col(1)).stableNormalized();
     return m;
   }
 

@@ -6,7 +6,7 @@ Mat3 frame(const Vec3& first, const Vec3& second) {
   Mat3 Q;
   Q.col(0) = first.stableNormalized();
   Q.col(1) = second.stableNormalized();
-  for (int twice = 0; twice < 2; ++twice)  // the second time for nearly parallel directions
+  for (int twice = 0; twice < 2; ++twice)  // the second pass is for nearly parallel directions
     Q.col(1) = (Q.col(1) - Q.col(0).dot(Q.col(1)) * Q.col(0)).normalized();
   Q.col(2) = Q.col(0).cross(Q.col(1));
   return Q;

@@ -1,4 +1,4 @@
-// Right-handed orthonormal frames, as rotations whose columns are the directions 1, 2, 3.
+// Right-handed orthonormal frames: rotations whose columns are the directions 1, 2, 3.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace orthodyn {
 
-// Axis 1 along `first`, axis 2 the part of `second` normal to it (Gram-Schmidt), axis 3 = 1 x 2. The
-// directions have any length, and are neither zero nor parallel (see are_independent()).
+// Axis 1 along `first`, axis 2 along the part of `second` normal to it (Gram-Schmidt), axis 3 = 1 x 2. Precondition:
+// are_independent(first, second): both are nonzero and not parallel. Their lengths do not matter.
 Mat3 frame(const Vec3& first, const Vec3& second);
 bool are_independent(const Vec3& first, const Vec3& second);
 
-// A unit vector normal to `direction`: the coordinate axis that is least along it (the first of equal
-// ones), less its part along it. For where nothing else gives a direction.
+// An arbitrary unit vector normal to `direction`: the coordinate axis least aligned with it (the first of equal ones),
+// projected normal to it.
 Vec3 any_normal(const Vec3& direction);
 
-// `directions` (orthonormal columns named by `letters`, say "LRT") in the order of `word`, say "RTL"; the
-// third becomes 1 x 2, which may reverse it: orthotropy does not tell a direction from its opposite.
+// Reorders `directions`, orthonormal columns named by `letters` ("LRT"), to the order of `word` ("RTL"). The third
+// column is set to 1 x 2, which may reverse it; orthotropy does not depend on its sign.
 Mat3 in_order(const Mat3& directions, const std::string& letters, const std::string& word);
 
 }  // namespace orthodyn

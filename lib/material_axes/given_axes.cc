@@ -26,12 +26,12 @@ bool span_space(const Mat3& columns) { return std::abs(unit_columns(columns).det
 std::string defect_of_axes(const Mat3& columns) {
   std::vector<std::string> found;
   for (int i = 0; i < 3; ++i)
-    if (const double length = columns.col(i).stableNorm(); !(std::abs(length - 1) <= kTypedDigits))
+    if (const double length = columns.col(i).stableNorm(); !(std::abs(length - 1) <= kAxesTolerance))
       found.push_back(fmt::format("axis {} has length {:.6g}", i + 1, length));
   for (int i = 0; i < 3; ++i)
     for (int j = i + 1; j < 3; ++j) {
       const double angle = degrees_between(columns.col(i).stableNormalized(), columns.col(j).stableNormalized());
-      if (!(std::abs(angle - 90) <= kTypedDigits * 180 / std::numbers::pi))
+      if (!(std::abs(angle - 90) <= kAxesTolerance * 180 / std::numbers::pi))
         found.push_back(fmt::format("axes {} and {} enclose {:.6g} degrees", i + 1, j + 1, angle));
     }
   if (left_handed(columns)) found.emplace_back("axis 3 points against 1 x 2 (left-handed)");
@@ -49,7 +49,7 @@ void check_axes(const Mat3& columns, AxesRepair repair, const Refuse& refuse) {
   const std::string defect = defect_of_axes(columns);
   if (!span_space(columns)) refuse("the three directions lie (nearly) in one plane or are zero: " + defect);
   else if (!defect.empty() && repair == AxesRepair::refuse)
-    refuse(defect + "; correct them, or let them be turned into the nearest axes by 'repair: orthonormalise'");
+    refuse(defect + "; correct them, or replace them by the nearest axes with 'repair: orthonormalise'");
 }
 
 std::string repair_note(const Mat3& columns) {
@@ -61,7 +61,7 @@ std::string repair_note(const Mat3& columns) {
     const double angle = degrees_between(columns.col(i).stableNormalized(), Q.col(i));
     turned = std::max(turned, std::min(angle, 180 - angle));
   }
-  return fmt::format("{}; repaired: lengths made 1, directions turned by at most {:.3g} degrees{}", defect, turned,
+  return fmt::format("{}; repaired: lengths set to 1, directions rotated by at most {:.3g} degrees{}", defect, turned,
                      left_handed(columns) ? ", axis 3 reversed" : "");
 }
 

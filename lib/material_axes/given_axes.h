@@ -1,5 +1,4 @@
-// Three directions as a user gives them, and what is done about those that are no axes: refused with
-// the figures, or repaired and told.
+// Checks three directions given by the user, and repairs them if allowed.
 #pragma once
 
 #include <functional>
@@ -18,25 +17,25 @@ struct EnumNames<AxesRepair> {
 };
 
 inline constexpr const char* kRepairSentence =
-    "What to do with axes that are not orthogonal, or left-handed, by more than rounding (1e-3): an "
-    "error, or the nearest rotation, with a note.";
+    "Treatment of axes that are left-handed or deviate from orthogonality by more than 1e-3: an error, or the nearest "
+    "rotation, with a note.";
 
-// What keeps the columns from being right-handed orthonormal axes to within `kTypedDigits`, or "".
+// Why the columns are not right-handed orthonormal axes to within kAxesTolerance, or "".
 std::string defect_of_axes(const Mat3& columns);
-inline constexpr double kTypedDigits = 1e-3;
+inline constexpr double kAxesTolerance = 1e-3;
 
-// Whether the columns span space, so that there is a rotation to repair them to.
+// Whether the columns are linearly independent, so that they can be repaired.
 bool span_space(const Mat3& columns);
 
-// The rotation nearest to the columns, made of unit length, in the Frobenius norm (polar decomposition);
-// of a left-handed set the third is reversed first, which means nothing to an orthotropic material.
+// The rotation nearest to the normalised columns in the Frobenius norm (polar decomposition). Axis 3 of a left-handed
+// set is reversed first; orthotropy does not depend on its sign.
 Mat3 nearest_axes(const Mat3& columns);
 
-// Calls `refuse` with a sentence if the columns are no axes and may not, or cannot, be repaired.
+// Calls `refuse` with a message if the columns are no axes and may not, or cannot, be repaired.
 using Refuse = std::function<void(const std::string& sentence)>;
 void check_axes(const Mat3& columns, AxesRepair repair, const Refuse& refuse);
 
-// What nearest_axes() changes of a set that has a defect: "<what was found>; repaired, ...", or "".
+// The changes of nearest_axes() to a set with a defect: "<defect>; repaired: ...", or "".
 std::string repair_note(const Mat3& columns);
 
 }  // namespace orthodyn

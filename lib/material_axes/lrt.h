@@ -1,8 +1,10 @@
-// The three directions of wood and of tubes: L along, R radial, T tangential, with T = L x R; and which
-// of the material axes 1, 2, 3 lies along which.
+// Material axes of wood and tubes from the directions L (longitudinal), R (radial) and T = L x R (tangential).
 #pragma once
 
+#include <cmath>
+
 #include "lib/config/values.h"
+#include "lib/material_axes/frame.h"
 
 namespace orthodyn {
 
@@ -16,11 +18,17 @@ struct EnumNames<LrtOrder> {
 };
 
 inline constexpr const char* kLrtSentence =
-    "Which directions the material axes 1, 2, 3 have: L along, R radial, T tangential.";
-inline constexpr const char* kSpiralSentence = "Spiral grain: by how much L is turned towards T = L x R, about R.";
+    "Directions of the material axes 1, 2, 3: L longitudinal, R radial, T tangential.";
+inline constexpr const char* kSpiralSentence = "Spiral grain: angle of L towards T = L x R, about R.";
 inline constexpr Range kSpiralRange{-1.57, 1.57};
 
-// Material axes from the directions along and radial (neither zero nor parallel).
-Mat3 lrt_axes(const Vec3& along, const Vec3& radial, LrtOrder order, double spiral);
+// `along` and `radial`: nonzero, not parallel; `spiral` in rad.
+inline Mat3 lrt_axes(const Vec3& along, const Vec3& radial, LrtOrder order, double spiral) {
+  Mat3 lrt = frame(along, radial);
+  const Vec3 L = lrt.col(0), T = lrt.col(2);
+  lrt.col(0) = std::cos(spiral) * L + std::sin(spiral) * T;
+  lrt.col(2) = std::cos(spiral) * T - std::sin(spiral) * L;
+  return in_order(lrt, "LRT", Value<LrtOrder>::yaml(order));
+}
 
 }  // namespace orthodyn

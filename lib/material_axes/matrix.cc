@@ -1,4 +1,4 @@
-// `axes: {type: matrix}`: the same rotation in all elements, with the axes as its columns.
+// `axes: {type: matrix}`: the same rotation in all elements, given as a matrix.
 #include "lib/material_axes/axes_source.h"
 #include "lib/material_axes/given_axes.h"
 

@@ -1,4 +1,4 @@
-// `axes: {type: spherical}`: radial, east and north about a centre: a shell, a bulb, an eye.
+// `axes: {type: spherical}`: radial, east and north about a centre, for a shell, a bulb, an eye.
 #include "lib/material_axes/axes_source.h"
 #include "lib/material_axes/frame.h"
 
@@ -22,10 +22,10 @@ class Spherical : public AxesSource {
         Spec<Spherical>()
             .key("center", &Spherical::center_, "The centre.", {.unit = "m"})
             .key("pole", &Spherical::pole_,
-                 "Direction of the north pole, of any length. For elements centred on the line of the poles N is the "
-                 "coordinate axis least along it, made normal to it; for one at the centre R is the pole.")
+                 "Direction of the north pole, of any length. On the polar axis, N is the coordinate axis least "
+                 "aligned with it, projected normal to it; at the centre, R is the pole.")
             .key("order", &Spherical::order_,
-                 "Which directions the material axes 1, 2, 3 have: R radial, E east (about the poles), N north.")
+                 "Directions of the material axes 1, 2, 3: R radial, E east (about the polar axis), N north.")
             .check([](const Spherical& s_, const Config& config) {
               if (s_.pole_.isZero(0)) config.at("pole").fail("is zero; give a direction");
             });
@@ -50,7 +50,7 @@ class Spherical : public AxesSource {
 };
 
 const bool spherical_registered = Registry<AxesSource>::add<Spherical>(
-    "spherical", "Radial, east and north about a centre, where the law is evaluated.");
+    "spherical", "Radial, east and north about a centre, at each integration point.");
 
 }  // namespace
 }  // namespace orthodyn

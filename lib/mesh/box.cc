@@ -14,7 +14,7 @@
 namespace orthodyn {
 namespace {
 
-// Corners of the unit cell are i + 2 j + 4 k; all tets below are positive.
+// Corner (i, j, k) of the unit cell has the number i + 2 j + 4 k. All tets below have a positive volume.
 constexpr Tet kFive[] = {{0, 5, 3, 6}, {1, 3, 0, 5}, {2, 0, 3, 6}, {4, 6, 5, 0}, {7, 5, 6, 3}};
 constexpr Tet kSix[] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}};
 
@@ -29,24 +29,21 @@ void check(const BoxMesh& box) {
   double tets = static_cast<double>(cell_tets(box.split).size());
   for (std::size_t a = 0; a < 3; ++a) {
     const double size = box.size[static_cast<Eigen::Index>(a)];
-    if (!(size > 0) || !std::isfinite(size)) {
+    if (!(size > 0) || !std::isfinite(size))
       throw ConfigError(fmt::format("box size {} m along {}; it must be positive and finite", size, kAxis[a]));
-    }
-    if (box.cells[a] < 1) {
+    if (box.cells[a] < 1)
       throw ConfigError(fmt::format("{} cells along {}; there must be at least 1", box.cells[a], kAxis[a]));
-    }
     nodes *= box.cells[a] + 1.0;
     tets *= box.cells[a];
   }
   if (!box.origin.allFinite()) throw ConfigError("the origin of the box is not finite");
   constexpr int kMax = std::numeric_limits<int>::max();
-  if (nodes > kMax || tets > kMax) {
+  if (nodes > kMax || tets > kMax)
     throw ConfigError(fmt::format("{} x {} x {} cells make {:.3g} nodes and {:.3g} tets; at most {} can be numbered",
                                   box.cells[0], box.cells[1], box.cells[2], nodes, tets, kMax));
-  }
 }
 
-// Numbers of the nodes and their places in the grid.
+// Converts between node numbers and grid indices.
 struct Grid {
   std::array<int, 3> cells;
 
@@ -87,15 +84,13 @@ void append_cell(const Grid& grid, std::array<int, 3> cell, BoxMesh::Split split
 std::vector<Tet> make_tets(const BoxMesh& box) {
   const Grid grid{box.cells};
   std::vector<Tet> tets;
-  for (int k = 0; k < box.cells[2]; ++k) {
-    for (int j = 0; j < box.cells[1]; ++j) {
+  for (int k = 0; k < box.cells[2]; ++k)
+    for (int j = 0; j < box.cells[1]; ++j)
       for (int i = 0; i < box.cells[0]; ++i) append_cell(grid, {i, j, k}, box.split, tets);
-    }
-  }
   return tets;
 }
 
-// The side that all three nodes lie on. Judged by grid numbers, so exact for any size.
+// The name of the side of the box that contains all three nodes.
 std::string side_of(const Grid& grid, const Triangle& triangle) {
   const std::array<int, 3> a = grid.place(triangle[0]);
   const std::array<int, 3> b = grid.place(triangle[1]);
@@ -117,9 +112,8 @@ TetMesh make_box(const BoxMesh& box) {
   mesh.tets = make_tets(box);
   mesh.region_of.assign(mesh.tets.size(), 0);
   mesh.region_names = {"body"};
-  for (const Triangle& triangle : boundary_triangles(mesh)) {
+  for (const Triangle& triangle : boundary_triangles(mesh))
     mesh.surfaces[side_of({box.cells}, triangle)].push_back(triangle);
-  }
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-// A box cut into a grid of cells, each cell into five or six tets.
+// A box of tetrahedra: a grid of cells, each split into five or six tets.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 namespace orthodyn {
 
 struct BoxMesh {
-  // five: four corner tets around a central one, alternating from cell to cell so that the
-  //   diagonals match. Mirror symmetric about the mid planes of axes with an even cell count.
-  // six: Kuhn (1960), all cells alike around the diagonal (0,0,0)-(1,1,1). No mirror symmetry.
+  // five: four corner tets around a central one, mirrored from cell to cell so that diagonals match. The mesh is
+  // symmetric about the mid planes of axes with an even cell count.
+  // six: Kuhn (1960), all cells alike around the diagonal (0,0,0)-(1,1,1). The mesh has no mirror symmetry.
   enum class Split { five, six };
 
   Vec3 size = Vec3::Ones();              // m
@@ -20,10 +20,9 @@ struct BoxMesh {
   Split split = Split::five;
 };
 
-// One region "body"; surfaces "x0", "x1", "y0", "y1", "z0", "z1" are the sides of lowest and
-// highest x, y, z, oriented outward. Nodes are numbered along x first, then y, then z; cells
-// likewise. Throws ConfigError (without a file) if a cell count is below 1, a size is not positive,
-// a number not finite, or the mesh has more nodes or tets than an int can count.
+// One region "body"; surfaces "x0", "x1", "y0", "y1", "z0", "z1" at the lowest and highest x, y, z, oriented outward.
+// Nodes and cells are numbered along x first, then y, then z. Throws ConfigError (without place) if a cell count is
+// below 1, a size is not positive, a number is not finite, or the mesh has more nodes or tets than an int can count.
 TetMesh make_box(const BoxMesh& box);
 
 }  // namespace orthodyn

@@ -1,11 +1,10 @@
-// The kinds of solid elements that mesh files hold, and their corners:
+// Kinds of solid elements in mesh files. Corners are numbered as by Gmsh and Abaqus; the normal of the base points
+// inward:
 //
-//   tet         0 1 2 the base, 3 on the side to which its normal points
-//   pyramid     0 1 2 3 around the base, 4 on the side to which its normal points
-//   wedge       0 1 2 the base, its normal to the inside, 3 4 5 above them
-//   hexahedron  0 1 2 3 around the base, its normal to the inside, 4 5 6 7 above them
-//
-// as Gmsh and Abaqus number them.
+//   tet         base 0 1 2, apex 3
+//   pyramid     base 0 1 2 3, apex 4
+//   wedge       base 0 1 2, opposite face 3 4 5
+//   hexahedron  base 0 1 2 3, opposite face 4 5 6 7
 #pragma once
 
 #include <cstddef>
@@ -24,7 +23,7 @@ constexpr std::size_t corners_of(CellKind kind) {
   return 0;
 }
 
-// "hexahedron", or "hexahedra" of several.
+// "hexahedron", or "hexahedra" unless count == 1.
 constexpr const char* name_of(CellKind kind, std::size_t count = 1) {
   switch (kind) {
     case CellKind::tet: return count == 1 ? "tetrahedron" : "tetrahedra";

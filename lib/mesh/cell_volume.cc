@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "lib/mesh/split_cells.h"
 
@@ -18,11 +17,11 @@ struct GaussPoint {
 const std::array<GaussPoint, 3> kGauss{
     {{0.5 - std::sqrt(0.15), 5. / 18}, {0.5, 8. / 18}, {0.5 + std::sqrt(0.15), 5. / 18}}};
 
-// Of the nodes at 0, 1/2 and 1: values or slopes.
+// Shape functions of the nodes at 0, 1/2 and 1: values and slopes.
 std::array<double, 3> quadratics(double x) { return {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}; }
 std::array<double, 3> quadratic_slopes(double x) { return {4 * x - 3, 4 - 8 * x, 4 * x - 1}; }
 
-// x[i][j] is the node at (i/2, j/2).
+// int x . n dA over a quadrilateral, where x[i][j] is the node at (i/2, j/2).
 double flux_of_quadrilateral(const std::array<std::array<Vec3, 3>, 3>& x) {
   double sum = 0;
   for (const auto& [u, wu] : kGauss)
@@ -40,7 +39,8 @@ double flux_of_quadrilateral(const std::array<std::array<Vec3, 3>, 3>& x) {
   return sum;
 }
 
-// Corners and the middles of the edges behind them; L = (1 - u - w, u, w) with w = v (1 - u).
+// int x . n dA over a triangle with the corners c; m[k] is the middle of the edge from c[k] to the next corner.
+// Collapsed coordinates: L = (1 - u - w, u, w) with w = v (1 - u).
 double flux_of_triangle(const std::array<Vec3, 3>& c, const std::array<Vec3, 3>& m) {
   double sum = 0;
   for (const auto& [u, wu] : kGauss)
@@ -72,7 +72,7 @@ double volume_of(const FileCell& cell, const std::function<const Vec3&(std::int6
     return found == middles.end() ? Vec3((position(a) + position(b)) / 2) : position(found->second);
   };
   double sum = 0;
-  for (const Places& face : faces_of(cell.kind)) {
+  for (const CornerIndices& face : faces_of(cell.kind)) {
     std::array<std::int64_t, 4> n{};
     std::array<Vec3, 4> c, m;
     for (std::size_t k = 0; k < face.size(); ++k) n[k] = cell.nodes[face[k]];
@@ -81,7 +81,7 @@ double volume_of(const FileCell& cell, const std::function<const Vec3&(std::int6
       m[k] = middle(n[k], n[(k + 1) % face.size()]);
     }
     if (face.size() == 3) {
-      sum -= flux_of_triangle({c[0], c[1], c[2]}, {m[0], m[1], m[2]});  // clockwise from outside
+      sum -= flux_of_triangle({c[0], c[1], c[2]}, {m[0], m[1], m[2]});  // nodes are clockwise from outside
       continue;
     }
     const auto own = middles.find(std::minmax(n[0], n[2]));

@@ -20,7 +20,7 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// The corners of the core of a cylinder lie at this fraction of the radius.
+// Radius of the corners of the core, relative to the radius of the cylinder.
 constexpr double kCore = 0.6;
 
 void require(bool condition, const std::string& message) {
@@ -47,8 +47,8 @@ void check_cells(const RoundCells& cells, bool full) {
       fmt::format("{:.3g} tets; at most {} can be numbered", 6 * plane * cells.along, std::numeric_limits<int>::max()));
 }
 
-// Where the rings end, as fractions of the way: 0 first, 1 last. Thicknesses in geometric progression.
-std::vector<double> ring_places(const RoundCells& cells) {
+// Boundaries of the rings, from 0 (inside) to 1 (outer circle). Thicknesses in geometric progression.
+std::vector<double> ring_boundaries(const RoundCells& cells) {
   std::vector<double> places{0};
   for (int ring = 0; ring < cells.through; ++ring) {
     const double along = cells.through == 1 ? 0 : double(ring) / (cells.through - 1);
@@ -66,18 +66,19 @@ double cross(const Point& o, const Point& a, const Point& b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
-// The smaller of the sines of the angles at the ends of a diagonal, of both triangles: large is good.
-double worst_corner(const Point& o, const Point& a, const Point& b) {
+// Quality of a triangle: twice its area divided by its longest edge squared. Larger is better.
+double triangle_quality(const Point& o, const Point& a, const Point& b) {
   const auto length = [](const Point& p, const Point& q) { return std::hypot(p[0] - q[0], p[1] - q[1]); };
   const double longest = std::max({length(o, a), length(a, b), length(b, o)});
   return cross(o, a, b) / (longest * longest);
 }
 
-// A quadrangle a b c d, counter-clockwise, cut along its better diagonal; `even` decides a tie.
+// Adds the two triangles of the quadrilateral a b c d (counter-clockwise), cut along its better diagonal; `even` breaks
+// ties.
 void append_quad(PlaneMesh& plane, int a, int b, int c, int d, bool even) {
   const auto quality = [&](int i, int j, int k) {
     const auto at = [&](int n) { return plane.nodes[static_cast<std::size_t>(n)]; };
-    return worst_corner(at(i), at(j), at(k));
+    return triangle_quality(at(i), at(j), at(k));
   };
   const double ac = std::min(quality(a, b, c), quality(a, c, d));
   const double bd = std::min(quality(a, b, d), quality(b, c, d));
@@ -90,7 +91,8 @@ void append_quad(PlaneMesh& plane, int a, int b, int c, int d, bool even) {
   }
 }
 
-// The way from a loop inside to the circle. A place on it: `turn` counts cells around, `way` goes from 0 to 1.
+// Maps (turn, way) to a point of the plane between an inner loop and the circle. `turn` counts cells around; `way` runs
+// from 0 on the loop to 1 on the circle.
 struct Rings {
   std::function<Point(double turn)> inside;
   double radius, first_angle;
@@ -104,19 +106,19 @@ struct Rings {
     const Point end = on_circle(radius, first_angle + 2 * std::numbers::pi * place.turn / around);
     return {begin[0] + place.way * (end[0] - begin[0]), begin[1] + place.way * (end[1] - begin[1])};
   }
-  // Cells from a to b, the shorter way around.
+  // Cells from a to b around the circle, in the shorter direction.
   double turns(const Place& a, const Place& b) const { return std::remainder(b.turn - a.turn, around); }
   Point middle(const Place& a, const Place& b) const { return at({a.turn + turns(a, b) / 2, (a.way + b.way) / 2}); }
 };
 
-// A plane mesh whose outer part are rings.
+// The cross section: a plane mesh with rings in its outer part.
 struct RoundPlane {
   PlaneMesh mesh = {};
   Rings rings = {};
-  std::map<int, Rings::Place> places = {};  // of the nodes on rings
-  std::vector<int> outer = {}, inner = {};  // those on the circles
+  std::map<int, Rings::Place> places = {};  // of nodes on rings
+  std::vector<int> outer = {}, inner = {};  // nodes on the circles
 
-  // Where the node on the edge between two nodes belongs.
+  // Position of the mid-edge node between two nodes.
   Point middle(int a, int b) const {
     const auto place_a = places.find(a), place_b = places.find(b);
     const bool both = place_a != places.end() && place_b != places.end();
@@ -128,11 +130,11 @@ struct RoundPlane {
   }
 };
 
-// Rings of quadrangles outward from the loop of nodes `inside` (counter-clockwise) to the circle.
+// Adds rings of quadrilaterals from the loop of nodes `inside` (counter-clockwise) outward to the circle.
 void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& cells) {
   PlaneMesh& plane = round.mesh;
   const int count = cells.around;
-  const std::vector<double> ways = ring_places(cells);
+  const std::vector<double> ways = ring_boundaries(cells);
   for (int k = 0; k < count; ++k) round.places[inside[static_cast<std::size_t>(k)]] = {double(k), 0};
   for (int ring = 1; ring <= cells.through; ++ring) {
     std::vector<int> outside;
@@ -151,7 +153,7 @@ void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& 
   round.outer = std::move(inside);
 }
 
-// A square grid blown up half way to a disc: its corners and those of the rings stay blunt.
+// A square grid deformed halfway to a disc, which avoids sharp angles at the corners of grid and rings.
 PlaneMesh make_core(int n, double corner_radius) {
   PlaneMesh plane;
   for (int j = 0; j <= n; ++j) {
@@ -171,7 +173,7 @@ PlaneMesh make_core(int n, double corner_radius) {
   return plane;
 }
 
-// The nodes on the outline of the grid, counter-clockwise from the corner of lowest coordinates.
+// The boundary nodes of the grid, counter-clockwise from the corner with the lowest coordinates.
 std::vector<int> outline_of_core(int n) {
   std::vector<int> loop;
   const auto node = [&](int i, int j) { return i + (n + 1) * j; };
@@ -182,8 +184,7 @@ std::vector<int> outline_of_core(int n) {
   return loop;
 }
 
-// The least rotation that takes z to the unit vector `a`, by Rodrigues' formula: about u = z x a / |z x a| by the angle
-// between both. Where a = -z every horizontal u does; x is taken.
+// The smallest rotation of z to the unit vector a: Rodrigues' formula about u = z x a / |z x a|, or about x if a is -z.
 Mat3 rotation_from_z(const Vec3& a) {
   const double sine = std::hypot(a[0], a[1]), cosine = a[2];
   const Vec3 u = sine > 0 ? Vec3(-a[1] / sine, a[0] / sine, 0) : Vec3::UnitX();
@@ -192,8 +193,8 @@ Mat3 rotation_from_z(const Vec3& a) {
   return cosine * Mat3::Identity() + sine * cross_u + (1 - cosine) * u * u.transpose();
 }
 
-// Nodes on edges, where they are wanted, follow the rings.
-void make_round(TetMesh& mesh, const RoundPlane& plane) {
+// Adds mid-edge nodes that follow the rings.
+void make_quadratic_round(TetMesh& mesh, const RoundPlane& plane) {
   const int per_layer = static_cast<int>(plane.mesh.nodes.size());
   make_quadratic(mesh, [&](int a, int b) {
     const auto [x, y] = plane.middle(a % per_layer, b % per_layer);
@@ -201,10 +202,8 @@ void make_round(TetMesh& mesh, const RoundPlane& plane) {
   });
 }
 
-// Surfaces by which nodes of the plane lie on which circle; then the body is put into place. `Mesh` is CylinderMesh or
-// TubeMesh.
-template <class Mesh>
-TetMesh finish(const RoundPlane& plane, const Mesh& round) {
+// Extrudes the cross section, names the surfaces, adds mid-edge nodes for order 2 and places the body.
+TetMesh finish(const RoundPlane& plane, const RoundMesh& round) {
   const Vec3 &origin = round.origin, &axis = round.axis;
   require(axis.allFinite() && axis.norm() > 0, "the axis is zero or not finite; give a direction");
   require(origin.allFinite(), "the origin is not finite");
@@ -222,7 +221,7 @@ TetMesh finish(const RoundPlane& plane, const Mesh& round) {
     }
   }
   if (round.order == 2) {
-    make_round(mesh, plane);
+    make_quadratic_round(mesh, plane);
     validate(mesh, {"the mesh of order 2"});
   }
   const Mat3 rotation = rotation_from_z(axis.stableNormalized());
@@ -249,7 +248,7 @@ TetMesh make_cylinder(const CylinderMesh& cylinder) {
     const Point &a = at(static_cast<int>(whole)), &b = at(static_cast<int>(whole) + 1);
     return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
   };
-  // The first angle is that of the corner of lowest coordinates.
+  // The first angle points to the corner with the lowest coordinates.
   plane.rings = {straight, cylinder.radius, -0.75 * std::numbers::pi, cylinder.cells.around};
   append_rings(plane, outline, cylinder.cells);
   return finish(plane, cylinder);

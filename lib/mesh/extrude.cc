@@ -8,9 +8,8 @@ namespace orthodyn {
 TetMesh extrude(const PlaneMesh& plane, double length, int layers) {
   const int per_layer = static_cast<int>(plane.nodes.size());
   TetMesh mesh;
-  for (int layer = 0; layer <= layers; ++layer) {
+  for (int layer = 0; layer <= layers; ++layer)
     for (const auto& [x, y] : plane.nodes) mesh.nodes.push_back({x, y, length * layer / layers});
-  }
   for (int layer = 0; layer < layers; ++layer) {
     const bool mirrored = layer % 2 == 1;
     const int bottom = (mirrored ? layer + 1 : layer) * per_layer;

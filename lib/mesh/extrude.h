@@ -1,4 +1,4 @@
-// A plane mesh of triangles drawn out along z into layers of prisms, each cut into three tets.
+// Extrudes a plane mesh of triangles along z into layers of prisms, each split into three tets.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ struct PlaneMesh {
   std::vector<Triangle> triangles;           // counter-clockwise
 };
 
-// Nodes are numbered layer by layer. Prisms are cut by the order of their nodes in the plane (the
-// diagonal of a side face starts at its lower node), so that neighbours match; from layer to layer the
-// cut is mirrored, so that no sense of rotation is preferred. One region "body", no surfaces.
+// Nodes are numbered layer by layer. The diagonal of a side face starts at the node with the lower number in the plane,
+// so that neighbours match. The split is mirrored from layer to layer, so that no sense of rotation is preferred.
+// `length` in m. The mesh has one region "body" and no surfaces.
 TetMesh extrude(const PlaneMesh& plane, double length, int layers);
 
 }  // namespace orthodyn

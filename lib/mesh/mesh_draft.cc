@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <span>
 #include <utility>
 
-#include "lib/core/errors.h"
-#include "lib/core/spelling.h"
-#include "lib/element/tet10.h"
-#include "lib/mesh/cell_volume.h"
+#include "lib/mesh/mesh_draft_warnings.h"
 #include "lib/mesh/node_numbers.h"
-#include "lib/mesh/quadratic.h"
 #include "lib/mesh/split_cells.h"
 #include "lib/mesh/split_middles.h"
 
@@ -23,19 +18,17 @@ namespace {
 
 void sort_by_tag(MeshDraft& draft) {
   std::vector<FileNode>& nodes = draft.nodes;
-  if (nodes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    draft.fail({}, fmt::format("{} nodes are too many", nodes.size()));
-  }
+  if (nodes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    draft.fail({}, "{} nodes are too many", nodes.size());
   const auto before = [](const FileNode& a, const FileNode& b) { return a.tag < b.tag; };
   if (!std::is_sorted(nodes.begin(), nodes.end(), before)) std::stable_sort(nodes.begin(), nodes.end(), before);
   const auto same = std::adjacent_find(nodes.begin(), nodes.end(),
                                        [](const FileNode& a, const FileNode& b) { return a.tag == b.tag; });
   if (same == nodes.end()) return;
-  draft.fail((same + 1)->place,
-             fmt::format("node tag {} is defined twice (first in line {})", same->tag, same->place.line));
+  draft.fail((same + 1)->place, "node tag {} is defined twice (first in line {})", same->tag, same->place.line);
 }
 
-// For each triangle of a surface the face of the file that it was cut from.
+// By surface: for each triangle, the index of the face in the file that it was cut from.
 using FaceOrigins = std::map<std::string, std::vector<std::size_t>>;
 
 template <std::size_t N>
@@ -44,27 +37,26 @@ void number_into(std::array<int, N>& numbers, const MeshDraft& draft, const Node
   for (std::size_t i = 0; i < tags.size(); ++i) {
     numbers[i] = number(tags[i]);
     if (numbers[i] >= 0) continue;
-    draft.fail(element.place,
-               fmt::format("element {}: node {} is not defined in {}", element.tag, tags[i], draft.nodes_section));
+    draft.fail(element.place, "element {}: node {} is not defined in {}", element.tag, tags[i], draft.nodes_section);
   }
 }
 
 void check_order(const MeshDraft& draft) {
   for (const FileCell& cell : draft.cells) {
     if (cell.is_quadratic() == draft.cells.front().is_quadratic()) continue;
-    draft.fail(cell.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order", cell.tag,
-                                       cell.is_quadratic() ? "quadratic" : "linear"));
+    draft.fail(cell.place, "element {} is {}, earlier ones are not; all must be of one order", cell.tag,
+               cell.is_quadratic() ? "quadratic" : "linear");
   }
 }
 
 using FaceTags = std::array<std::int64_t, 3>;  // ascending
 
-// The faces of the file's own tets, ascending, each with the index of its cell.
+// Faces of the tets in the file, ascending, each with the index of its cell.
 std::vector<std::pair<FaceTags, std::size_t>> faces_of_tets(const MeshDraft& draft) {
   std::vector<std::pair<FaceTags, std::size_t>> faces;
   for (std::size_t c = 0; c < draft.cells.size(); ++c) {
     if (draft.cells[c].kind != CellKind::tet) continue;
-    for (const Places& places : faces_of(CellKind::tet)) {
+    for (const CornerIndices& places : faces_of(CellKind::tet)) {
       FaceTags face{};
       for (std::size_t k = 0; k < 3; ++k) face[k] = draft.cells[c].nodes[places[k]];
       std::sort(face.begin(), face.end());
@@ -75,29 +67,29 @@ std::vector<std::pair<FaceTags, std::size_t>> faces_of_tets(const MeshDraft& dra
   return faces;
 }
 
-// A tet of the file may lie on a quadrilateral, of which it must then have a half as it is cut.
+// A tet of the file that lies on a quadrilateral must match one of the two triangles that the face is cut into.
 void check_diagonals(const MeshDraft& draft) {
   const auto is_tet = [](const FileCell& cell) { return cell.kind == CellKind::tet; };
   if (std::all_of(draft.cells.begin(), draft.cells.end(), is_tet)) return;
   const auto faces = faces_of_tets(draft);
   if (faces.empty()) return;
   for (const FileCell& cell : draft.cells)
-    for (const Places& places : faces_of(cell.kind)) {
+    for (const CornerIndices& places : faces_of(cell.kind)) {
       if (places.size() != 4) continue;
       std::array<std::int64_t, 4> quad{};
       for (std::size_t k = 0; k < 4; ++k) quad[k] = cell.nodes[places[k]];
-      if (std::set(quad.begin(), quad.end()).size() < 4) continue;  // of a collapsed element: no quadrilateral
+      if (std::set(quad.begin(), quad.end()).size() < 4) continue;  // collapsed to a triangle
       std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
       for (const std::size_t third : {0u, 2u}) {
-        FaceTags half{quad[1], quad[3], quad[third]};  // of the diagonal that is not taken
+        FaceTags half{quad[1], quad[3], quad[third]};  // one half of the face if it were cut by the other diagonal
         std::sort(half.begin(), half.end());
         const auto found = std::lower_bound(faces.begin(), faces.end(), std::pair(half, std::size_t{0}));
         if (found == faces.end() || found->first != half) continue;
         const FileCell& tet = draft.cells[found->second];
         draft.fail(tet.place,
-                   fmt::format("element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the "
-                               "other diagonal, from node {} to {}; mesh with pyramids between them",
-                               tet.tag, cell.tag, draft.where(cell.place), quad[0], quad[2]));
+                   "element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the other "
+                   "diagonal, from node {} to {}; mesh with pyramids between them",
+                   tet.tag, cell.tag, draft.where(cell.place), quad[0], quad[2]);
       }
     }
 }
@@ -109,21 +101,19 @@ void add_cells(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh)
     number_into(nodes, draft, number, cell, cell.corners());
     if (!append_tets(cell.kind, {nodes.data(), corners_of(cell.kind)}, mesh.tets))
       draft.fail(cell.place,
-                 fmt::format("element {}: a {} that repeats nodes in a way that no tetrahedra can be cut from "
-                             "it; nodes may be repeated along edges: remesh",
-                             cell.tag, name_of(cell.kind)));
+                 "element {}: a {} with repeated nodes that cannot be split into tetrahedra; nodes may be repeated "
+                 "along edges only: remesh",
+                 cell.tag, name_of(cell.kind));
     mesh.region_of.resize(mesh.tets.size(), cell.region);
     mesh.cell_of.resize(mesh.tets.size(), static_cast<int>(c));
   }
 }
 
 std::vector<EdgeMiddle> edges_of(const MeshDraft& draft, const NodeNumbers& number, const FileCell& cell) {
-  std::vector<FileEdge> edges = cell.edges;
-  if (cell.midsides)
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
-      edges.push_back({cell.nodes[kTetEdges[e][0]], cell.nodes[kTetEdges[e][1]], (*cell.midsides)[e]});
+  FileCell all = cell;
+  if (cell.midsides) all.add_edge_middles(kTetEdges, *cell.midsides);
   std::vector<EdgeMiddle> out;
-  for (const auto& [a, b, middle] : edges) {
+  for (const auto& [a, b, middle] : all.edges) {
     std::array<int, 3> nodes{};
     number_into(nodes, draft, number, cell, std::array{a, b, middle});
     out.push_back({nodes[0], nodes[1], nodes[2]});
@@ -131,7 +121,7 @@ std::vector<EdgeMiddle> edges_of(const MeshDraft& draft, const NodeNumbers& numb
   return out;
 }
 
-// Tets of the file first: on a face of theirs no node is new.
+// Edges of all elements come before diagonals: a diagonal that is an edge of a tet has its node already.
 void add_midsides(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh) {
   const bool all_tets = std::all_of(draft.cells.begin(), draft.cells.end(),
                                     [](const FileCell& cell) { return cell.kind == CellKind::tet; });
@@ -172,18 +162,16 @@ TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
     auto& set = mesh.node_sets[name];
     for (const FileNodeUse& use : uses) {
       set.push_back(number(use.tag));
-      if (set.back() < 0) {
-        draft.fail(use.place,
-                   fmt::format("node set \"{}\": node {} is not defined in {}", name, use.tag, draft.nodes_section));
-      }
+      if (set.back() < 0)
+        draft.fail(use.place, "node set \"{}\": node {} is not defined in {}", name, use.tag, draft.nodes_section);
     }
   }
   add_midsides(draft, number, mesh);
   return mesh;
 }
 
-// Elements of the file all of whose tets are inverted.
-std::vector<std::size_t> turn_inverted(TetMesh& mesh) {
+// Reverses the orientation of the elements whose tets are all inverted; returns these elements.
+std::vector<std::size_t> reorient_inverted(TetMesh& mesh) {
   std::vector<std::size_t> turned;
   for (std::size_t begin = 0, end = 0; begin < mesh.tets.size(); begin = end) {
     bool all = true;
@@ -201,73 +189,7 @@ std::vector<std::size_t> turn_inverted(TetMesh& mesh) {
   return turned;
 }
 
-std::string note_of_turned(const MeshDraft& draft, const std::vector<std::size_t>& turned) {
-  const std::size_t all = draft.cells.size();
-  if (turned.empty()) return "";
-  if (turned.size() == all && all > 1)
-    return fmt::format("{}: all {} elements count their nodes the other way round; they were turned",
-                       draft.files.front(), all);
-  const FileCell& first = draft.cells[turned.front()];
-  return fmt::format(
-      "{}: {} of {} elements count their nodes the other way round, the first is element {}; they were "
-      "turned",
-      draft.where(first.place), turned.size(), all, first.tag);
-}
-
-double volume_of_tets(const TetMesh& mesh) {
-  double sum = 0;
-  const Cells cells = tet_cells(mesh);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (mesh.order() == 1) {
-      sum += signed_volume6(mesh, mesh.tets[c]) / 6;
-      continue;
-    }
-    ElementNodes<10> X;
-    for (std::size_t a = 0; a < 10; ++a)
-      X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(cells[c][a])];
-    sum += Tet10::mass(X, 1);
-  }
-  return sum;
-}
-
-// "" if the tets fill the elements of the file to within 1e-3 of their volume.
-std::string note_of_volume(const MeshDraft& draft, const TetMesh& mesh) {
-  constexpr double kTold = 1e-3;
-  const NodeNumbers number(draft.nodes);
-  const auto position = [&](std::int64_t tag) -> const Vec3& {
-    return draft.nodes[static_cast<std::size_t>(number(tag))].x;
-  };
-  double before = 0;
-  for (const FileCell& cell : draft.cells) before += std::abs(volume_of(cell, position));
-  const double after = volume_of_tets(mesh);
-  if (!(std::abs(after - before) > kTold * before)) return "";
-  return fmt::format(
-      "{}: the elements have a volume of {:.6g} by their own shape functions, the tetrahedra that they "
-      "are split into {:.6g} ({:+.2g} %): faces that are curved across their diagonals are approximated; "
-      "finer elements, or tetrahedra in the file, make the difference smaller",
-      draft.files.front(), before, after, 100 * (after / before - 1));
-}
-
-// "beam.msh: 120 hexahedra and 30 wedges are split into 750 tetrahedra", or "" if all are tetrahedra.
-std::string note_of_split(const MeshDraft& draft, std::size_t tets) {
-  std::map<CellKind, std::size_t> counts;
-  for (const FileCell& cell : draft.cells)
-    if (cell.kind != CellKind::tet) ++counts[cell.kind];
-  if (counts.empty()) return "";
-  std::vector<std::string> kinds;
-  std::size_t others = draft.cells.size();  // that are tets in the file
-  for (auto it = counts.rbegin(); it != counts.rend(); ++it) {
-    kinds.push_back(fmt::format("{} {}", it->second, name_of(it->first, it->second)));
-    others -= it->second;
-  }
-  const std::string last = kinds.back();
-  kinds.pop_back();
-  return fmt::format("{}: {}{}{}{} split into {} {}tetrahedra", draft.files.front(), join(kinds),
-                     kinds.empty() ? "" : " and ", last, draft.cells.size() - others == 1 ? " is" : " are",
-                     tets - others, draft.cells.front().is_quadratic() ? "quadratic " : "");
-}
-
-// "element 7", or "element 7, tetrahedron 2 of 6" of one that was split.
+// "element 7", or "element 7, tetrahedron 2 of 6 of a hexahedron".
 std::string tet_name_of(const MeshDraft& draft, const TetMesh& mesh, int tet) {
   const auto t = static_cast<std::size_t>(tet);
   const FileCell& cell = draft.cells[static_cast<std::size_t>(mesh.cell_of[t])];
@@ -284,7 +206,7 @@ MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrig
       .tet_name = [&](int t) { return tet_name_of(draft, mesh, t); },
       .node_name = [&draft](int n) -> std::string {
         if (static_cast<std::size_t>(n) >= draft.nodes.size())
-          return draft.files.front() + ": a node within an element that is split";
+          return draft.files.front() + ": a node added when an element was split";
         const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
         return fmt::format("{}: node {}", draft.where(node.place), node.tag);
       },
@@ -299,9 +221,15 @@ MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrig
 
 }  // namespace
 
+void FileCell::add_edge_middles(std::span<const std::array<std::size_t, 2>> corners_of_edges,
+                                std::span<const std::int64_t> middles) {
+  for (std::size_t e = 0; e < corners_of_edges.size(); ++e)
+    edges.push_back({nodes[corners_of_edges[e][0]], nodes[corners_of_edges[e][1]], middles[e]});
+}
+
 void FileCell::add_face_middle(const std::array<std::size_t, 4>& places, std::int64_t middle) {
   const std::array<std::int64_t, 4> n{nodes[places[0]], nodes[places[1]], nodes[places[2]], nodes[places[3]]};
-  if (std::set(n.begin(), n.end()).size() < 4) return;  // of a collapsed element: no quadrilateral
+  if (std::set(n.begin(), n.end()).size() < 4) return;  // collapsed to a triangle
   edges.push_back({n[0], n[2], middle});
   edges.push_back({n[1], n[3], middle});
 }
@@ -322,23 +250,21 @@ std::string MeshDraft::where(FilePlace place) const {
   return place.line > 0 ? fmt::format("{}:{}", file, place.line) : file;
 }
 
-void MeshDraft::fail(FilePlace place, const std::string& message) const { throw ConfigError(where(place), message); }
-
 LoadedMesh build_mesh(MeshDraft draft) {
   sort_by_tag(draft);
   check_order(draft);
   check_diagonals(draft);
   FaceOrigins face_origins;
   LoadedMesh loaded{.mesh = number_nodes(draft, face_origins), .warnings = std::move(draft.warnings)};
-  const auto tell = [&](std::string note) {
-    if (!note.empty()) loaded.warnings.push_back(std::move(note));
+  const auto warn = [&](std::string warning) {
+    if (!warning.empty()) loaded.warnings.push_back(std::move(warning));
   };
-  tell(note_of_turned(draft, turn_inverted(loaded.mesh)));
-  const std::string note = note_of_split(draft, loaded.mesh.tets.size());
-  tell(note);
+  warn(inverted_warning(draft, reorient_inverted(loaded.mesh)));
+  const std::string split = split_warning(draft, loaded.mesh.tets.size());
+  warn(split);
   const Warnings found = validate(loaded.mesh, origin_of(draft, loaded.mesh, face_origins));
-  if (!note.empty()) tell(note_of_volume(draft, loaded.mesh));
-  if (note.empty()) loaded.mesh.cell_of.clear();
+  if (!split.empty()) warn(volume_warning(draft, loaded.mesh));
+  if (split.empty()) loaded.mesh.cell_of.clear();
   loaded.warnings.insert(loaded.warnings.end(), found.begin(), found.end());
   return loaded;
 }

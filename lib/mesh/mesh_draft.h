@@ -1,6 +1,8 @@
-// What a mesh file says, before it becomes a TetMesh: numbers of the file instead of indices, and
-// the place of everything. Filled by the readers of the formats.
+// The content of a mesh file before it becomes a TetMesh: tags of the file instead of indices, each with its place. The
+// readers of all formats fill it.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cstdint>
@@ -8,8 +10,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lib/core/errors.h"
 #include "lib/core/types.h"
 #include "lib/mesh/cell_kind.h"
 #include "lib/mesh/loaded_mesh.h"
@@ -17,7 +21,7 @@
 namespace orthodyn {
 
 struct FilePlace {
-  int line = 0;  // 0: in a file without lines, the number is enough
+  int line = 0;  // 0: the file has no lines
   int file = 0;  // index into MeshDraft::files
 };
 
@@ -32,14 +36,14 @@ struct FileEdge {
   std::int64_t a = 0, b = 0, middle = 0;
 };
 
-// A solid element, with its corners in the order of cell_kind.h.
+// A solid element; corners in the order of cell_kind.h.
 struct FileCell {
   std::int64_t tag = 0;
   CellKind kind = CellKind::tet;
   std::array<std::int64_t, 8> nodes{};                       // the first corners_of(kind)
-  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic tet, in the order of kTetEdges
-  // Of another one of second order: with their middle nodes. A node within a face, or within a hexahedron, is the
-  // middle of diagonals.
+  std::optional<std::array<std::int64_t, 6>> midsides = {};  // quadratic tet, in the order of kTetEdges
+  // Quadratic cells that are not tets: edges with mid-edge nodes. A node within a face or a hexahedron counts as the
+  // middle of each of its diagonals.
   std::vector<FileEdge> edges = {};
   FilePlace place = {};
   int region = 0;  // index into MeshDraft::region_names
@@ -47,9 +51,13 @@ struct FileCell {
   std::span<std::int64_t> corners() { return {nodes.data(), corners_of(kind)}; }
   std::span<const std::int64_t> corners() const { return {nodes.data(), corners_of(kind)}; }
 
-  // The node within the quadrilateral of these four places of corners.
+  // Adds the mid-edge nodes of edges, given by places of corners in this cell. Both arguments are in the same order.
+  void add_edge_middles(std::span<const std::array<std::size_t, 2>> corners_of_edges,
+                        std::span<const std::int64_t> middles);
+  // Adds the node within the quadrilateral of these four corners.
   void add_face_middle(const std::array<std::size_t, 4>& places, std::int64_t middle);
-  void add_centre(std::int64_t middle);  // of a hexahedron
+  // Adds the node at the centre of a hexahedron.
+  void add_centre(std::int64_t middle);
 
   bool is_quadratic() const { return midsides.has_value() || !edges.empty(); }
 };
@@ -65,37 +73,45 @@ struct FileFace {
   std::span<const std::int64_t> corners() const { return {nodes.data(), sides}; }
 };
 
-// A node that a set names.
+// A node in a set, and where the set lists it.
 struct FileNodeUse {
   std::int64_t tag = 0;
   FilePlace place;
 };
 
 struct MeshDraft {
-  std::vector<std::string> files;  // the first is the one that the user named
+  std::vector<std::string> files;  // the first is the file given by the user
   std::vector<FileNode> nodes;     // in any order
   std::vector<FileCell> cells;
   std::vector<std::string> region_names;
   std::map<std::string, std::vector<FileFace>> surfaces;
   std::map<std::string, std::vector<FileNodeUse>> node_sets;
-  std::string nodes_section;  // what defines nodes, for messages: "$Nodes"
+  std::string nodes_section;  // where nodes are defined, for messages: "$Nodes"
   Warnings warnings;
-  std::map<std::string, int> region_indices;  // of region_index()
+  std::map<std::string, int> region_indices;  // used by region_index()
 
-  // The index of the region of this name, which is added if it is new.
+  // The index of the region of this name; adds it if it is new.
   int region_index(const std::string& name);
 
   std::string where(FilePlace place) const;  // "beam.msh:120", or "beam.vtu"
-  [[noreturn]] void fail(FilePlace place, const std::string& message) const;
+
+  // Throws ConfigError "where(place): message".
+  template <class... Args>
+  [[noreturn]] void fail(FilePlace place, fmt::format_string<Args...> message, Args&&... args) const {
+    throw ConfigError(where(place), fmt::format(message, std::forward<Args>(args)...));
+  }
+  // Adds the warning "where(place): message"; {} is the first file as a whole.
+  template <class... Args>
+  void warn(FilePlace place, fmt::format_string<Args...> message, Args&&... args) {
+    warnings.push_back(where(place) + ": " + fmt::format(message, std::forward<Args>(args)...));
+  }
 };
 
-// Nodes are numbered by ascending tag; elements keep their order. Hexahedra, wedges and pyramids are split into
-// tetrahedra (split_cells.h), which is said; a tet on a quadrilateral must fit its diagonal. Those of second
-// order become quadratic tetrahedra of the same curved shape (split_middles.h); a volume that is another one than by
-// the elements' own shape functions is told. Linear and quadratic elements do not mix. Elements that are inverted as a
-// whole count their nodes the other way round: they are turned, with a warning; what then overlaps is refused. Throws
-// ConfigError for tags that are not defined or defined twice, for a mesh without elements, and for what validate()
-// refuses.
+// Numbers nodes by ascending tag; elements keep their order. Splits hexahedra, wedges and pyramids into tetrahedra
+// (split_cells.h), quadratic ones into quadratic tetrahedra of the same curved shape (split_middles.h). Reorients
+// elements that are inverted as a whole. Warns of split and of reoriented elements, and if splitting changes the
+// volume. Throws ConfigError for undefined tags, tags that are defined twice, a mesh without elements, linear beside
+// quadratic elements, a tet on a quadrilateral that does not match its diagonal, and a mesh that validate() refuses.
 LoadedMesh build_mesh(MeshDraft draft);
 
 }  // namespace orthodyn

@@ -18,7 +18,7 @@ Barycentric barycentric(const TetMesh& mesh, const Tet& tet, const Vec3& place) 
   return {1 - L.sum(), L[0], L[1], L[2]};
 }
 
-// The same within the element.
+// Barycentric coordinates of a nearby point within the element.
 Barycentric clamped(const Barycentric& L) {
   const Barycentric inside = L.cwiseMax(0);
   return inside / inside.sum();

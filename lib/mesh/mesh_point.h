@@ -1,5 +1,4 @@
-// A place in a mesh, by the nodes of the element around it: what is known at nodes follows there by the element's
-// shape functions.
+// A point of a mesh as a weighted sum of nodes: the shape functions of the element that contains it.
 #pragma once
 
 #include <utility>
@@ -10,10 +9,11 @@
 namespace orthodyn {
 
 struct MeshPoint {
-  std::vector<std::pair<int, double>> nodes;  // with their weights, which sum to 1
+  std::vector<std::pair<int, double>> nodes;  // nodes and their weights, which sum to 1
 };
 
-// The element is found by its corners. For a place outside of the body one at its surface, close by.
+// The point at `place` (m) in the rest shape. Elements are located by their corners. For a place outside the body, a
+// nearby point on its surface.
 MeshPoint mesh_point(const TetMesh& mesh, const Vec3& place);
 
 }  // namespace orthodyn

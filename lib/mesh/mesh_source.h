@@ -1,4 +1,4 @@
-// Where a scene's mesh comes from: one kind per entry of Registry<MeshSource>.
+// Source of a scene's mesh, chosen by `mesh: {type: ...}` from Registry<MeshSource>.
 #pragma once
 
 #include "lib/config/registry.h"
@@ -11,7 +11,7 @@ class MeshSource {
   virtual ~MeshSource() = default;
   virtual LoadedMesh load() const = 0;  // throws ConfigError
 
-  // False if load() never says anything about materials.
+  // False if load() never returns materials.
   virtual bool may_bring_materials() const { return false; }
 };
 

@@ -1,4 +1,4 @@
-// The nodes of a mesh, to be found by their places at rest.
+// Finds nodes of a mesh by their positions in the rest shape.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace orthodyn {
 
-// The mesh must outlive it.
+// The mesh must outlive the object.
 class NearNodes {
  public:
   explicit NearNodes(const TetMesh& mesh);
 
-  // The node nearest to a point, if one is not farther away than `distance` (m).
+  // The node nearest to `point` (m) among those at most `distance` (m) away.
   std::optional<int> within(double distance, const Vec3& point) const;
 
  private:

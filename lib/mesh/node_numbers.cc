@@ -10,9 +10,8 @@ NodeNumbers::NodeNumbers(const std::vector<FileNode>& sorted) : sorted_(sorted) 
   const std::uint64_t range = static_cast<std::uint64_t>(sorted.back().tag) - first_;
   if (range / 4 > sorted.size()) return;
   table_.assign(range + 1, -1);
-  for (std::size_t n = 0; n < sorted.size(); ++n) {
+  for (std::size_t n = 0; n < sorted.size(); ++n)
     table_[static_cast<std::uint64_t>(sorted[n].tag) - first_] = static_cast<int>(n);
-  }
 }
 
 int NodeNumbers::operator()(std::int64_t tag) const {

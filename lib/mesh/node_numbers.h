@@ -1,4 +1,4 @@
-// From the tags of nodes, which may be sparse and in any order, to indices.
+// Maps node tags, which may be sparse, to indices.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace orthodyn {
 
-// Nodes are numbered by ascending tag. The nodes must be sorted and outlive this. Uses memory in
-// proportion to their count, whatever the tags are.
+// The index of a node is its position in `sorted`, the nodes in ascending order of tags. `sorted` must outlive this.
+// Memory is proportional to the number of nodes, whatever the tags are.
 class NodeNumbers {
  public:
   explicit NodeNumbers(const std::vector<FileNode>& sorted);

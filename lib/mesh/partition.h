@@ -1,5 +1,4 @@
-// A mesh in parts, one for each rank: which cells are neighbours, which nodes several parts have, and what they then
-// have to tell each other.
+// Partition of a mesh among ranks: adjacency of cells, ranks that share a node, and the amount of communication.
 #pragma once
 
 #include <vector>
@@ -10,16 +9,16 @@
 
 namespace orthodyn {
 
-// Cells that share a face are neighbours. Precondition: `faces` are those of all `cells`, sorted.
+// Graph of cells, connected if they share a face. `faces`: sorted_faces() of all `cells`.
 CellGraph cell_graph(const std::vector<TetFace>& faces, std::size_t cells);
 
-// For each node the ranks of its cells, ascending.
-class RanksOfNodes {
+// For each node, the ranks of its cells, ascending.
+class NodeRanks {
  public:
-  // `rank_of_cell` must outlive this.
-  RanksOfNodes(const Cells& cells, const std::vector<int>& rank_of_cell, std::size_t nodes);
+  // `rank_of_cell` must outlive the object.
+  NodeRanks(const Cells& cells, const std::vector<int>& rank_of_cell, std::size_t nodes);
 
-  // Valid until the next call.
+  // The ranks of one node. Valid until the next call.
   const std::vector<int>& of(std::size_t node);
 
  private:
@@ -28,18 +27,19 @@ class RanksOfNodes {
   std::vector<int> cells_, ranks_;
 };
 
-// Which of the ranks that have a node owns it: borders are shared evenly.
-inline int owner_of(std::size_t node, const std::vector<int>& having) { return having[node % having.size()]; }
+// The rank that owns a node, among the `ranks` that share it: interfaces are divided evenly.
+inline int owner_of(std::size_t node, const std::vector<int>& ranks) { return ranks[node % ranks.size()]; }
 
-struct PartFigures {
+// Sizes of a part.
+struct PartSize {
   long cells = 0;
-  long owned = 0;      // nodes
-  long copies = 0;     // of other parts' nodes
-  long copied = 0;     // copies that other parts have of its own
-  int neighbours = 0;  // parts that it exchanges numbers with
+  long owned = 0;      // nodes that the part owns
+  long copies = 0;     // nodes owned by other parts
+  long copied = 0;     // copies of owned nodes in other parts
+  int neighbours = 0;  // parts it communicates with
 };
 
-// Precondition: `rank_of_cell` has a number below `parts` for each cell.
-std::vector<PartFigures> figures_of_parts(const TetMesh& mesh, const std::vector<int>& rank_of_cell, int parts);
+// Precondition: 0 <= rank_of_cell[cell] < parts.
+std::vector<PartSize> part_sizes(const TetMesh& mesh, const std::vector<int>& rank_of_cell, int parts);
 
 }  // namespace orthodyn

@@ -1,18 +1,24 @@
 #include "lib/mesh/quadratic.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 #include <utility>
 
-namespace orthodyn {
+#include "lib/core/errors.h"
+#include "lib/element/tet10.h"
 
-namespace {
+namespace orthodyn {
 
 std::uint64_t edge_key(int a, int b) {
   const auto [low, high] = std::minmax(a, b);
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
 }
 
-// Those of the set's edges on the surface.
+namespace {
+
+// Adds the mid-edge nodes of surface edges whose ends are both in the set. Precondition: the set is sorted.
 void add_middles(const EdgeNodes& middles, const std::vector<Triangle>& surface, std::vector<int>& set) {
   std::vector<int> more;
   const auto has = [&](int node) { return std::binary_search(set.begin(), set.end(), node); };
@@ -24,7 +30,70 @@ void add_middles(const EdgeNodes& middles, const std::vector<Triangle>& surface,
   set.erase(std::unique(set.begin(), set.end()), set.end());
 }
 
+constexpr double kFolded = 1e-6;  // relative to det dX/dL with straight edges
+
+// A mid-edge node must belong to one edge only, and an edge must have the same mid-edge node in all its elements.
+void check_mid_edge_nodes(const TetMesh& mesh, const MeshOrigin& origin) {
+  std::vector<char> corner(mesh.nodes.size(), 0);
+  for (const Tet& tet : mesh.tets)
+    for (int n : tet) corner[static_cast<std::size_t>(n)] = 1;
+  std::vector<std::pair<int, int>> edge_of(mesh.nodes.size(), {-1, -1});
+  const EdgeNodes middles(mesh);  // of the first element that has the edge
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const int middle = mesh.midsides[i][e], a = mesh.tets[i][kTetEdges[e][0]], b = mesh.tets[i][kTetEdges[e][1]];
+      const std::pair<int, int> edge = std::minmax(a, b);
+      auto& known = edge_of[static_cast<std::size_t>(middle)];
+      const bool elsewhere = known.first >= 0 && known != edge;
+      known = edge;
+      if (!corner[static_cast<std::size_t>(middle)] && !elsewhere && middles.at(a, b) == middle) continue;
+      throw ConfigError(
+          origin.tet(t),
+          fmt::format(
+              "{} is the mid-edge node between {} and {}, but another element uses it as a corner or on another edge, "
+              "or has another node on this edge; elements must share all nodes of a common edge: remesh",
+              origin.node(middle), origin.node(a), origin.node(b)));
+    }
+  }
+}
+
+// The map from barycentric coordinates must keep its orientation at all evaluation points. It is constant if all edges
+// are straight.
+void check_folding(const TetMesh& mesh, const MeshOrigin& origin) {
+  const Cells cells = tet_cells(mesh);
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
+    const auto nodes = cells[static_cast<std::size_t>(t)];
+    ElementNodes<Tet10::kNodes> X;
+    for (Eigen::Index a = 0; a < X.cols(); ++a)
+      X.col(a) = mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
+    const auto is_straight = [&](int e) {
+      const auto [i, j] = Tet10::kEdges[static_cast<std::size_t>(e)];
+      return (X.col(4 + e) - 0.5 * (X.col(i) + X.col(j))).norm() <= 1e-12 * (X.col(i) - X.col(j)).norm();
+    };
+    int straight_edges = 0;
+    for (int e = 0; e < 6; ++e) straight_edges += is_straight(e);
+    if (straight_edges == 6) continue;
+    const NodeDifferences<Tet10::kNodes> rest = differences<Tet10::kNodes>(X);
+    const double straight = signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(t)]);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& L : Tet10::checked_places())
+      smallest = std::min(smallest, Tet10::jacobian(rest, L).determinant() / straight);
+    if (smallest > kFolded) continue;
+    throw ConfigError(
+        origin.tet(t),
+        fmt::format("its curved edges fold it over (det dX/dL is {:.3g} of that with straight edges); remesh finer, "
+                    "straighten it (Gmsh: Mesh.SecondOrderLinear = 1), or optimise it (Gmsh: Mesh.HighOrderOptimize)",
+                    smallest));
+  }
+}
+
 }  // namespace
+
+void validate_quadratic(const TetMesh& mesh, const MeshOrigin& origin) {
+  check_mid_edge_nodes(mesh, origin);
+  check_folding(mesh, origin);
+}
 
 EdgeNodes::EdgeNodes(const TetMesh& mesh) {
   nodes_.reserve(mesh.tets.size() + mesh.tets.size() / 2);  // a large mesh has about 1.2 edges a tet

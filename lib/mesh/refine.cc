@@ -12,14 +12,14 @@ namespace orthodyn {
 
 namespace {
 
-// Four of the ten nodes of a cell each.
+// The corners of a child, as indices of the ten nodes of its parent.
 using Child = std::array<std::size_t, 4>;
 using Children = std::array<Child, 8>;
 
 constexpr std::array<Child, 4> kAtCorners{{{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}}};
 
-// The nodes in the middle of opposite edges, and around them the other four in turn, so that (a, b, ring i, ring i + 1)
-// has a positive volume.
+// A diagonal a-b of the inner octahedron and the other four nodes in cyclic order: (a, b, ring i, ring i + 1) has a
+// positive volume.
 struct Diagonal {
   std::size_t a, b;
   std::array<std::size_t, 4> ring;
@@ -28,7 +28,7 @@ constexpr std::array<Diagonal, 3> kDiagonals{{{4, 9, {6, 7, 8, 5}}, {6, 8, {5, 9
 
 Children children_of(const std::array<Vec3, 10>& x) {
   const auto length = [&](const Diagonal& d) { return (x[d.a] - x[d.b]).squaredNorm(); };
-  // The first of equal ones, up to round-off.
+  // The first of several that are equal up to round-off.
   const Diagonal* shortest = &kDiagonals[0];
   for (const Diagonal& d : kDiagonals)
     if (length(d) < (1 - 1e-9) * length(*shortest)) shortest = &d;
@@ -39,8 +39,8 @@ Children children_of(const std::array<Vec3, 10>& x) {
   return out;
 }
 
-// The barycentric coordinates of a cell's node.
-Eigen::Vector4d place_of(std::size_t node) {
+// Barycentric coordinates of a node of a quadratic cell.
+Eigen::Vector4d barycentric_of(std::size_t node) {
   if (node < 4) return Eigen::Vector4d::Unit(static_cast<Eigen::Index>(node));
   const auto [i, j] = Tet10::kEdges[node - 4];
   return (Eigen::Vector4d::Unit(i) + Eigen::Vector4d::Unit(j)) / 2;
@@ -78,7 +78,7 @@ void refine(LoadedMesh& loaded) {
   refine_surfaces(mesh);
 
   std::vector<Tet> tets;
-  std::map<std::pair<int, int>, Vec3> middles;  // of the new edges
+  std::map<std::pair<int, int>, Vec3> middles;  // of new edges
   const Cells cells = tet_cells(mesh);
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto nodes = cells[k];
@@ -90,7 +90,7 @@ void refine(LoadedMesh& loaded) {
       tets.push_back({nodes[child[0]], nodes[child[1]], nodes[child[2]], nodes[child[3]]});
       if (!quadratic) continue;
       for (const auto& [i, j] : kTetEdges) {
-        const Eigen::Vector4d L = (place_of(child[i]) + place_of(child[j])) / 2;
+        const Eigen::Vector4d L = (barycentric_of(child[i]) + barycentric_of(child[j])) / 2;
         middles.try_emplace(std::minmax(nodes[child[i]], nodes[child[j]]), X * Tet10::shape(L));
       }
     }

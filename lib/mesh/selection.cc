@@ -24,7 +24,7 @@ const Spec<PlaneSelection>& PlaneSelection::spec() {
           .key("point", &PlaneSelection::point, "A point of the plane.", {.required = true, .unit = "m"})
           .key("normal", &PlaneSelection::normal, "Its normal, of any length.", {.required = true})
           .key("tolerance", &PlaneSelection::tolerance,
-               "Nodes nearer than this belong to it; default 1e-6 of the mesh's diagonal.",
+               "Largest distance of selected nodes from the plane; default 1e-6 of the mesh's diagonal.",
                {.unit = "m", .range = kNonNegative})
           .check([](const PlaneSelection& p, const Config& config) {
             if (p.normal.norm() == 0) config.at("normal").fail("is zero; give a direction");
@@ -42,7 +42,7 @@ void Selection::check(const Config& config) const {
 
 namespace {
 
-// `found` is a map by name; `remedy` says where such things come from.
+// `found`: all existing ones, by name. `remedy`: how to create one.
 [[noreturn]] void fail_unknown(const SourceLocation& origin, const char* kind, const std::string& name,
                                const auto& found, const char* remedy) {
   std::vector<std::string> names;
@@ -72,10 +72,7 @@ std::set<int> select(const Selection& selection, const TetMesh& mesh) {
     const Cells faces = face_cells(mesh, find_surface(mesh, *selection.surface, selection.origin));
     return {faces.nodes().begin(), faces.nodes().end()};
   }
-  if (selection.box)
-    return nodes_where(mesh, [&](const Vec3& x) {
-      return (x.array() >= selection.box->min.array()).all() && (x.array() <= selection.box->max.array()).all();
-    });
+  if (selection.box) return nodes_where(mesh, [&](const Vec3& x) { return selection.box->contains(x); });
   const double tolerance = selection.plane->tolerance.value_or(1e-6 * bounding_box(mesh).diagonal());
   const Vec3 normal = selection.plane->normal.normalized();
   return nodes_where(mesh,

@@ -1,4 +1,4 @@
-// Parts of the mesh in the words of the input: a set of nodes, and named surfaces.
+// Selection of nodes and surfaces of a mesh by keys of the input.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,10 @@
 namespace orthodyn {
 
 struct BoxSelection {
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  // m
+  SourceLocation origin;
   static const Spec<BoxSelection>& spec();
+  bool contains(const Vec3& x) const { return (x.array() >= min.array()).all() && (x.array() <= max.array()).all(); }
 };
 struct PlaneSelection {
   Vec3 point = Vec3::Zero(), normal{0, 0, 1};
@@ -20,7 +22,7 @@ struct PlaneSelection {
   static const Spec<PlaneSelection>& spec();
 };
 
-// A set of nodes: exactly one of the five.
+// A set of nodes, given by exactly one of five keys.
 struct Selection {
   std::optional<std::string> surface;
   std::optional<BoxSelection> box;
@@ -30,11 +32,11 @@ struct Selection {
   SourceLocation origin;
 
   int count() const;
-  // Fails unless exactly one is given.
+  // Fails unless exactly one key is given.
   void check(const Config& config) const;
 };
 
-// The keys of a selection, for a T that is one.
+// Keys of a T derived from Selection.
 template <class T>
 Spec<T> selection_spec() {
   return Spec<T>()
@@ -45,16 +47,16 @@ Spec<T> selection_spec() {
       .key("nodes", &T::nodes, "A named node set of the mesh.");
 }
 
-// Ascending. Throws ConfigError if there are none.
+// Ascending node indices. Throws ConfigError if no node is selected.
 std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh);
 
-// The node nearest to a point of the rest shape.
+// The node nearest to a point (m) of the rest shape.
 int nearest_node(const TetMesh& mesh, const Vec3& point);
 
-// Throws ConfigError naming the mesh's surfaces if there is none of this name.
+// The triangles of a surface. Throws ConfigError, with the known names, if the mesh has no such surface.
 const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const SourceLocation& origin);
 
-// The same, without a name all outer faces of the body.
+// As find_surface(); all outer faces of the body if there is no name.
 std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
                                      const SourceLocation& origin);
 

@@ -1,5 +1,5 @@
-// Hexahedra, wedges and pyramids cut into tetrahedra that match across common faces: each quadrilateral face is cut by
-// the diagonal through its smallest node number, which both elements beside it see alike.
+// Splits hexahedra, wedges and pyramids into tetrahedra that match across common faces: each quadrilateral face is cut
+// by the diagonal through its smallest node number, which is the same for both elements.
 //
 // Source: J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero, "How to subdivide pyramids, prisms, and hexahedra into
 // tetrahedra", 8th International Meshing Roundtable, 1999.
@@ -14,23 +14,22 @@
 
 namespace orthodyn {
 
-using Places = std::vector<std::size_t>;  // of corners in an element
+using CornerIndices = std::vector<std::size_t>;  // local indices of corners in an element
 
-// The faces of an element, clockwise from outside, as Abaqus lists S1, S2, ...: Abaqus elements guide,
-// "three-dimensional solid element library".
-const std::vector<Places>& faces_of(CellKind kind);
+// Corners of the faces, clockwise as seen from outside, in the order S1, S2, ... of Abaqus (elements guide,
+// "three-dimensional solid element library").
+const std::vector<CornerIndices>& faces_of(CellKind kind);
 
-// The corners of the edges, as Abaqus and VTK list the nodes in their middles; empty of a tet, whose edges are
-// kTetEdges.
+// Corners of the edges, in the order in which Abaqus and VTK list mid-edge nodes; empty for a tet (see kTetEdges).
 const std::vector<std::array<std::size_t, 2>>& edges_of(CellKind kind);
 
-// Appends the triangles of a face of three or four nodes. Nodes may be repeated: what has no area is left out.
+// Appends the triangles of a face of three or four nodes. Triangles with repeated nodes are left out.
 void append_triangles(std::span<const int> face, std::vector<Triangle>& triangles);
 
-// Appends the tetrahedra of an element: a tet itself, two of a pyramid, three of a wedge, five or six of a hexahedron,
-// each with positive volume if the element has plane faces and is not inverted. Corners may be repeated along edges
-// (a hexahedron that stands for a wedge): tets without volume are left out. False if they are repeated otherwise, or
-// if no tet is left.
+// Appends the tetrahedra of an element: one for a tet, two for a pyramid, three for a wedge, five or six for a
+// hexahedron. Their volumes are positive if the element has plane faces and is not inverted. Corners may be repeated
+// along edges (a hexahedron collapsed to a wedge): tets without volume are left out. Returns false if corners are
+// repeated otherwise, or if no tet is left.
 bool append_tets(CellKind kind, std::span<const int> corners, std::vector<Tet>& tets);
 
 }  // namespace orthodyn

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
 
 namespace {
-
-std::uint64_t key_of_edge(int a, int b) {
-  const auto [low, high] = std::minmax(a, b);
-  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
-}
 
 Vec3 sum_of(const TetMesh& mesh, const std::vector<int>& nodes) {
   Vec3 sum = Vec3::Zero();
@@ -23,23 +19,23 @@ Vec3 sum_of(const TetMesh& mesh, const std::vector<int>& nodes) {
 
 void SplitMiddles::add_edges(std::span<const EdgeMiddle> edges) {
   for (const auto& [a, b, middle] : edges)
-    if (a != b) middles_.emplace(key_of_edge(a, b), middle);
+    if (a != b) middles_.emplace(edge_key(a, b), middle);
 }
 
 void SplitMiddles::add_diagonal(int a, int b, const Diagonal& diagonal) {
-  if (!middles_.contains(key_of_edge(a, b))) diagonals_.emplace(key_of_edge(a, b), diagonal);
+  if (!middles_.contains(edge_key(a, b))) diagonals_.emplace(edge_key(a, b), diagonal);
 }
 
-// Elements with repeated corners have triangles there, or an edge with a node of its own.
+// Faces with repeated corners are triangles and have no diagonal.
 void SplitMiddles::add_diagonals(CellKind kind, std::span<const int> corners) {
   const auto middles_around = [&](const std::vector<int>& loop, std::vector<int>& all) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const auto found = middles_.find(key_of_edge(loop[k], loop[(k + 1) % loop.size()]));
+      const auto found = middles_.find(edge_key(loop[k], loop[(k + 1) % loop.size()]));
       if (found != middles_.end()) all.push_back(found->second);
     }
   };
   Diagonal whole{{corners.begin(), corners.end()}, {}, false};
-  for (const Places& places : faces_of(kind)) {
+  for (const CornerIndices& places : faces_of(kind)) {
     std::vector<int> face;
     for (const std::size_t k : places) face.push_back(corners[k]);
     middles_around(face, whole.middles);
@@ -56,11 +52,12 @@ void SplitMiddles::add_diagonals(CellKind kind, std::span<const int> corners) {
   for (std::size_t k = 0; k < 4; ++k) add_diagonal(corners[k], corners[4 + (k + 2) % 4], whole);
 }
 
-// Shape functions of the 8 and 20 nodes at the centre: -1/4 at corners, 1/2 and 1/4 at the others.
+// Places a new node by the serendipity shape functions of 8 and 20 nodes at the centre: -1/4 for corners, 1/2 and 1/4
+// for mid-edge nodes.
 int SplitMiddles::middle(int a, int b) {
-  const auto [entry, is_new] = middles_.try_emplace(key_of_edge(a, b), static_cast<int>(mesh_.nodes.size()));
+  const auto [entry, is_new] = middles_.try_emplace(edge_key(a, b), static_cast<int>(mesh_.nodes.size()));
   if (!is_new) return entry->second;
-  const auto found = diagonals_.find(key_of_edge(a, b));
+  const auto found = diagonals_.find(edge_key(a, b));
   if (found == diagonals_.end()) {
     mesh_.nodes.push_back(0.5 * sum_of(mesh_, {a, b}));
     return entry->second;

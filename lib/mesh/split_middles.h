@@ -1,6 +1,6 @@
-// The nodes on the edges of tetrahedra that elements of second order are split into: those of the file on the elements'
-// own edges, and new ones on the diagonals of their faces and within hexahedra, where the serendipity shape functions
-// of the element have the middle.
+// Mid-edge nodes of the tetrahedra that quadratic elements are split into. On the edges of the elements these are nodes
+// of the file. On diagonals of faces and hexahedra without a node of the file, they are new nodes at the centre, placed
+// by the serendipity shape functions of the element.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,24 @@
 
 namespace orthodyn {
 
-// The node in the middle of the edge between the corners a and b.
+// The mid-edge node between the corners a and b.
 struct EdgeMiddle {
   int a, b, middle;
 };
 
 class SplitMiddles {
  public:
-  // New nodes are appended to the mesh, which must outlive this.
+  // Appends new nodes to the mesh, which must outlive the object.
   explicit SplitMiddles(TetMesh& mesh) : mesh_(mesh) {}
 
-  // First all elements are made known (a tetrahedron, too), then their tets can be asked for.
+  // Call for all elements, tets included, before of(): first add_edges(), then add_diagonals().
   void add_edges(std::span<const EdgeMiddle> edges);
   void add_diagonals(CellKind kind, std::span<const int> corners);
 
+  // The mid-edge nodes of a tet.
   Midsides of(const Tet& tet);
 
-  // Node sets that have a face get the new node on it.
+  // Adds the new node of a face to node sets that contain all other nodes of the face.
   void complete_node_sets();
 
  private:

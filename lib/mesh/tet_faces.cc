@@ -13,15 +13,13 @@ constexpr int kFaceNodes[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 TetFace face_of(const Tet& tet, int index, int local) {
   TetFace face{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    face.nodes[i] = tet[static_cast<std::size_t>(kFaceNodes[local][i])];
-  }
+  for (std::size_t i = 0; i < 3; ++i) face.nodes[i] = tet[static_cast<std::size_t>(kFaceNodes[local][i])];
   face.flipped = sort_nodes(face.nodes);
   face.tet = index;
   return face;
 }
 
-// Where the faces with a given lowest node begin; one more entry than nodes.
+// Start of the faces with a given lowest node; one more entry than nodes.
 std::vector<std::size_t> bucket_starts(const TetMesh& mesh) {
   std::vector<std::size_t> starts(mesh.nodes.size() + 1, 0);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -50,8 +48,8 @@ bool sort_nodes(Triangle& nodes) {
   return odd;
 }
 
-// A counting sort by the lowest node leaves buckets of about 20 faces: several times faster than
-// one big sort on meshes of millions of tets.
+// Counting sort by the lowest node, then a sort in each bucket of about 20 faces: several times faster than one sort
+// for millions of tets.
 std::vector<TetFace> sorted_faces(const TetMesh& mesh) {
   const std::vector<std::size_t> starts = bucket_starts(mesh);
   std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
@@ -65,10 +63,9 @@ std::vector<TetFace> sorted_faces(const TetMesh& mesh) {
   const auto before = [](const TetFace& a, const TetFace& b) {
     return std::tie(a.nodes, a.flipped, a.tet) < std::tie(b.nodes, b.flipped, b.tet);
   };
-  for (std::size_t n = 0; n + 1 < starts.size(); ++n) {
+  for (std::size_t n = 0; n + 1 < starts.size(); ++n)
     std::sort(faces.begin() + static_cast<std::ptrdiff_t>(starts[n]),
               faces.begin() + static_cast<std::ptrdiff_t>(starts[n + 1]), before);
-  }
   return faces;
 }
 

@@ -1,4 +1,4 @@
-// The faces of all tets of a mesh, sorted so that the two sides of an inner face are neighbours.
+// The faces of all tets of a mesh, sorted so that both sides of an inner face are adjacent.
 #pragma once
 
 #include <vector>
@@ -7,20 +7,19 @@
 
 namespace orthodyn {
 
-// One face as one tet sees it.
+// A face of a tet.
 struct TetFace {
-  Triangle nodes;  // ascending, so that both sides of an inner face have the same
+  Triangle nodes;  // ascending; the same for both sides of an inner face
   int tet;
-  bool flipped;  // seen from outside the tet, `nodes` runs clockwise
+  bool flipped;  // `nodes` is clockwise as seen from outside the tet
 
   Triangle outward() const { return flipped ? Triangle{nodes[0], nodes[2], nodes[1]} : nodes; }
 };
 
-// Brings the three nodes into ascending order; true if that was an odd permutation.
+// Sorts the nodes; returns true for an odd permutation.
 bool sort_nodes(Triangle& nodes);
 
-// Four faces per tet, sorted by nodes, then side, then tet. Node indices must be in range and
-// volumes positive, else the sides mean nothing.
+// Four faces per tet, sorted by nodes, then side, then tet. Precondition: node indices in range, positive volumes.
 std::vector<TetFace> sorted_faces(const TetMesh& mesh);
 
 // The faces with the same nodes as faces[begin] are [begin, end_of_face(faces, begin)).

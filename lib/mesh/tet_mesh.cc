@@ -1,5 +1,7 @@
 #include "lib/mesh/tet_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -27,6 +29,24 @@ double signed_volume6(const TetMesh& mesh, const Tet& tet) {
   return a.dot(b.cross(c));
 }
 
+Vec3 centroid(const TetMesh& mesh, int tet) {
+  Vec3 sum = Vec3::Zero();
+  for (const int node : mesh.tets[static_cast<std::size_t>(tet)]) sum += mesh.nodes[static_cast<std::size_t>(node)];
+  return sum / 4;
+}
+
+std::string MeshOrigin::tet(int index) const {
+  return tet_name ? tet_name(index) : fmt::format("{}: element {}", source, index);
+}
+
+std::string MeshOrigin::node(int index) const {
+  return node_name ? node_name(index) : fmt::format("{}: node {}", source, index);
+}
+
+std::string MeshOrigin::triangle(const std::string& surface, int index) const {
+  return triangle_name ? triangle_name(surface, index) : fmt::format("{}: triangle {}", source, index);
+}
+
 void remove_nodes(TetMesh& mesh, const std::vector<char>& marked) {
   std::vector<int> new_index(mesh.nodes.size(), -1);
   std::vector<Vec3> kept;
@@ -39,9 +59,8 @@ void remove_nodes(TetMesh& mesh, const std::vector<char>& marked) {
   const auto renumber = [&](int& n) { n = new_index[static_cast<std::size_t>(n)]; };
   for (Tet& tet : mesh.tets) std::for_each(tet.begin(), tet.end(), renumber);
   for (Midsides& middles : mesh.midsides) std::for_each(middles.begin(), middles.end(), renumber);
-  for (auto& [surface, triangles] : mesh.surfaces) {
+  for (auto& [surface, triangles] : mesh.surfaces)
     for (Triangle& t : triangles) std::for_each(t.begin(), t.end(), renumber);
-  }
   for (auto& [set, nodes] : mesh.node_sets) {
     std::erase_if(nodes, [&](int n) { return marked[static_cast<std::size_t>(n)] != 0; });
     std::for_each(nodes.begin(), nodes.end(), renumber);

@@ -1,4 +1,4 @@
-// A quantity of the state that passes a value while a model is integrated.
+// Events: during an integration a scalar of the state crosses a given value.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,9 @@ struct Event {
   std::function<double(const ObservedState&)> quantity;
   double value = 0;  // in the quantity's unit
   Direction direction = Direction::both;
-  bool stops = false;  // the run ends there
+  bool stops = false;  // ends the run at the crossing
 };
 
-// One passing of one event.
 struct Crossing {
   const Event* event = nullptr;
   State state;

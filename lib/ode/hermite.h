@@ -1,7 +1,5 @@
-// Dense output of one-step methods for q' = v, v' = a: the quintic Hermite polynomial through q, v
-// and a at both ends of a step, and its derivative for v.
-//
-// Errors of O(h^6) in q and O(h^5) in v over a step of length h, at no evaluation of the model
+// Dense output of one-step methods for q' = v, v' = a: the quintic Hermite polynomial through q, v and a at both ends
+// of a step, and its derivative for v. Error O(h^6) in q and O(h^5) in v for a step h, without evaluations of the model
 // (Hairer, Norsett & Wanner 1993, II.6, with three conditions per end).
 #pragma once
 
@@ -9,19 +7,19 @@
 
 namespace orthodyn {
 
-// The solution at an end of a step; a = M^-1 f.
+// The solution at one end of a step; a = M^-1 f.
 struct StepEnd {
   double t = 0;
   Vector q, v, a;
 };
 
-// q and v at a time between the ends. At an end, exactly the stored values.
+// Computes q and v at a time t within the step; at its ends they are exactly the stored values.
 void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
-// The same by linear interpolation, O(h^2): enough for a method of order 1.
+// Linear interpolation, error O(h^2), for methods of order 1.
 void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
-// The middle of the ends' positions, with the mean velocity of the step.
+// Mean of the positions q0 and q1 at both ends, with the mean velocity (q1 - q0)/h.
 State mean_state(const StepEnd& begin, const StepEnd& end);
 
 }  // namespace orthodyn

@@ -14,9 +14,9 @@ Model::Number::Number() {
 void Model::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                       Linearization& out) const {
   const bool constant = traits().linear;
-  const bool is_whole = out.stiffness.size() == pattern().row.size();  // not if it was moved from
+  const bool is_whole = out.stiffness.size() == pattern().row.size();  // false if moved from
   if (constant && is_whole && out.filled_by_ == number_.value()) return;
-  out.filled_by_ = 0;  // also if what follows throws
+  out.filled_by_ = 0;  // in case assemble() throws
   out.damping.clear();
   assemble(t, q, v, kind, out);
   if (constant) out.filled_by_ = number_.value();

@@ -1,10 +1,10 @@
 // The interface between physical models and integrators: M q'' = f(t, q, v), v = q', with n generalised positions q.
 //
-// It is in second-order form. With K = -df/dq and D = -df/dv on one pattern, every implicit scheme solves
-// A = w_m M + w_d D + w_k K with its own three weights.
+// The equation is in second-order form. With K = -df/dq and D = -df/dv on one pattern, every implicit scheme solves
+// linear systems with A = w_m M + w_d D + w_k K and its own three weights.
 //
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
-// entries; matrices are values on pattern(), as many as its row indices.
+// entries; a matrix is stored as its values on pattern(), one per row index.
 //
 // A model may be distributed over several MPI ranks. Each vector then holds the n unknowns of this rank; pattern() also
 // has unknowns of other ranks, numbered after these. Functions are collective: all ranks call them in the same order,
@@ -32,7 +32,7 @@ namespace orthodyn {
 // Properties of a model that are known without any computation.
 struct Traits {
   bool linear = false;          // K and D are constant: they depend neither on t nor on q or v
-  bool damped = false;          // stiffness-proportional damping everywhere: fast vibrations die out soonest
+  bool damped = false;          // stiffness-proportional damping everywhere, so fast vibrations decay fastest
   bool damping_matrix = false;  // D is more than a multiple of M
   bool lumped_mass = true;      // M is diagonal
   bool time_dependent = false;  // f depends on t
@@ -40,17 +40,18 @@ struct Traits {
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
   bool smooth = true;           // f has no kinks in q: there is no contact
-  bool exact_stiffness = true;  // K is -df/dq, or its symmetric part, and no approximation
+  bool exact_stiffness = true;  // K is -df/dq or its symmetric part, not an approximation
 };
 
+// The weights w_m, w_d and w_k of A.
 struct Weights {
   double mass = 0, damping = 0, stiffness = 0;
 };
 
 // K and D at one state, from Model::linearize(). `damping` is empty when D is a multiple of M.
 //
-// May be passed to linearize() again for another state or model: it records whose constant matrices it holds.
-// Precondition: the values are not changed in between.
+// An object may be passed to linearize() again for another state or model, because it records whose constant matrices
+// it holds. Precondition: the values are not changed in between.
 struct Linearization {
   std::vector<double> stiffness, damping;
 
@@ -59,63 +60,65 @@ struct Linearization {
   std::uint64_t filled_by_ = 0;  // the number of the model whose constant K and D these are, or 0
 };
 
-// The force between two states. For forces with an energy U: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U is
-// invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
+// The mean force f between two states 0 and 1. If the force has an energy U, f . (q1 - q0) = U(q0) - U(q1) to
+// round-off, and f -> -grad U as q1 -> q0. If U is also invariant under rotation, f has no torque about the mean nodal
+// positions (x0 + x1) / 2.
 // Source: Gonzalez (1996), Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6.
 class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
-  // f in N. Loads are evaluated at the mean time, forces that depend on velocities at the mean state with velocity v.
-  // Throws RecoverableError if the force does not exist.
+  // Computes f in N. Loads are evaluated at the mean time. Forces that depend on velocities are evaluated at the mean
+  // state with velocity v. Throws RecoverableError if the force does not exist.
   virtual void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
                           const ConstVectorRef& v, VectorRef f) const = 0;
 };
 
 class Model : public OutputSource {
  public:
-  // n.
+  // The number n of unknowns of this rank.
   virtual int num_dofs() const = 0;
 
   // The ranks that hold the model, and their total number of unknowns; null and n for a model of one process.
   virtual const Ranks* ranks() const { return nullptr; }
   virtual Eigen::Index num_dofs_of_all() const { return num_dofs(); }
   VectorSpace space() const { return {ranks(), num_dofs_of_all()}; }
-  // This rank's part of a vector of all unknowns. `all` has the numbering of a model of one process.
+  // Returns this rank's part of a vector of all unknowns. `all` is numbered as in a model of one process.
   virtual Vector part_of(const Vector& all) const { return all; }
 
   virtual const Traits& traits() const = 0;
 
-  // f(t, q, v), N. Throws RecoverableError if it cannot be evaluated; a smaller step may help.
+  // Computes f(t, q, v), N. Throws RecoverableError if f cannot be evaluated; a smaller step may help.
   virtual void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const = 0;
 
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;
 
-  // K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if traits().linear
-  // holds and `out` already has this model's K and D. Throws RecoverableError as force() does; `out` may be passed
-  // again afterwards.
+  // Computes K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if
+  // traits().linear holds and `out` already has this model's K and D. Throws RecoverableError as force() does; `out`
+  // may be passed again afterwards.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                  Linearization& out) const;
 
-  // K at q with the stresses that K at q_before predicts for q, in place of the stresses of q: the matrix of Newton's
-  // method for a mixed formulation, in which stresses are unknowns. A straight step stretches a body that bends; this K
-  // stays definite, and Newton's method converges, over far longer steps. The default, and the result for equal states,
-  // is the exact K. `out` has no damping. Throws as linearize() does.
+  // Computes the mixed K: K at q, but with the stresses that K at q_before predicts for q instead of the stresses at q.
+  // This is the matrix of Newton's method for a mixed formulation, in which stresses are unknowns. A straight step
+  // stretches a body that bends. The mixed K stays definite, and Newton's method converges, for far longer steps than
+  // with the exact K. The default implementation returns the exact K, which is also the result for equal states. `out`
+  // has no damping. Throws as linearize() does.
   void linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                        Linearization& out) const;
 
-  // values = w_m M + w_d D + w_k K, D and K from linearize() of this model.
+  // Computes values = w_m M + w_d D + w_k K. `at`: D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;
 
-  // y = A x for the values of a matrix on pattern(); x and y differ.
+  // Computes y = A x for a matrix A with `values` on pattern(). x and y must be different vectors.
   virtual void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const {
     pattern().multiply(values, x, y);
   }
 
-  // y = M x; x and y differ.
+  // Computes y = M x. x and y must be different vectors.
   virtual void multiply_mass(const ConstVectorRef& x, VectorRef y) const = 0;
 
-  // x <- M^-1 x. Throws RunError if M is not positive definite.
+  // Replaces x by M^-1 x. Throws RunError if M is not positive definite.
   virtual void solve_mass(VectorRef x) const = 0;
 
   // Rigid motions about q, which K resists least: n x 6 displacements of any size. Empty if the model has none.
@@ -124,24 +127,25 @@ class Model : public OutputSource {
   // Upper bound of the largest angular frequency about rest, rad/s; 0 if unknown.
   virtual double frequency_bound() const { return 0; }
 
-  // Null if the model has none. Lives as long as the model.
+  // The model's discrete gradient, which lives as long as the model; null if there is none.
   virtual const DiscreteGradient* discrete_gradient() const { return nullptr; }
 
-  // Names of the parts of the force ("gravity"), and a model with the same mass and some of the parts, which this model
-  // must outlive. Precondition: the names are among force_parts().
+  // Names of the parts of the force, such as "gravity". only() makes a model with the same mass and the named parts;
+  // this model must outlive it. Precondition: the names are among force_parts().
   virtual std::vector<std::string> force_parts() const { return {}; }
   virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
-  // The parts that are loads: in statics the load factor multiplies them (lib/statics/load_path.h). None if unknown.
+  // The parts that are loads: in statics the load factor multiplies them (lib/statics/load_path.h). Empty optional if
+  // unknown.
   virtual std::optional<std::vector<std::string>> load_parts() const { return std::nullopt; }
 
-  // Times (s) in (start, end) at which f is not smooth, ascending: integrators restart there.
+  // Times (s) in (start, end), ascending, at which f is not smooth. Integrators restart there.
   virtual std::vector<double> breakpoints(double start, double end) const;
 
   // Limits of adaptive steps between two times (s), so that no step misses a short change of f in time.
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
 
  private:
-  // A number that is unique to this model; a copy gets its own.
+  // A number that is unique to this model; a copy of the model gets another number.
   class Number {
    public:
     Number();
@@ -160,7 +164,7 @@ class Model : public OutputSource {
   virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                         Linearization& out) const = 0;
 
-  // Computes K of linearize_mixed(), and overwrites `out`.
+  // Computes the K of linearize_mixed(), and overwrites `out`.
   virtual void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                               Linearization& out) const;
 

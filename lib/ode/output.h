@@ -1,5 +1,5 @@
-// What a model can tell about a state, by name: observers ask for fields and scalars and know no mesh behind them.
-// Nothing is computed that nobody asks for, and nothing twice that outputs of one state share.
+// Named outputs of a model: fields and scalars of a state, for observers that need not know the mesh. Each output is
+// computed only on request; intermediate results of one state are shared.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ namespace orthodyn {
 struct State {
   double t = 0;            // s
   Vector q, v;             // generalised positions and velocities
-  double load_factor = 1;  // of what loads the model (Model::load_parts())
+  double load_factor = 1;  // factor on the loads (Model::load_parts())
 };
 
 enum class Location { node, cell, global };
@@ -27,24 +27,24 @@ struct OutputInfo {
   int components;
   std::string unit;
   std::string sentence;
-  std::vector<std::string> component_names = {};  // "x", "y", "z"; "11", ..., "31"; empty where they have none
+  std::vector<std::string> component_names = {};  // "x", "y", "z"; "11", ..., "31"; may be empty
 };
 
-// Points and cells that fields live on.
+// The points and cells on which fields are given.
 struct Geometry {
   std::vector<Vec3> points;  // m
   Cells cells;
-  int vtk_cell_type = 0;  // their kind, by the numbers of VTK
+  int vtk_cell_type = 0;  // VTK's number of the cell type
 };
 
-// One state, evaluated. It computes what an output needs when it is first asked for, and keeps what others need too:
-// positions of all nodes, forces, momenta. For one thread at a time.
+// Evaluates outputs of one state. Intermediate results that outputs share (positions of all nodes, forces, momenta) are
+// computed at first use and kept. Use it from one thread at a time.
 class StateView {
  public:
   virtual ~StateView() = default;
 
-  // Values of one output in its unit: components fastest, then nodes or cells in the order of Geometry.
-  // Precondition: `name` is one of the source's outputs(). Throws RecoverableError where it cannot be evaluated.
+  // Values of one output in its unit. Components vary fastest, then nodes or cells in the order of Geometry.
+  // Precondition: `name` is one of the source's outputs(). Throws RecoverableError if it cannot be evaluated.
   virtual std::vector<double> evaluate(const std::string& name) const = 0;
 };
 
@@ -54,11 +54,11 @@ class OutputSource {
 
   virtual std::vector<OutputInfo> outputs() const { return {}; }
 
-  // For several outputs of one state, which need not outlive the view; the source must. Views of one source may be
-  // used at the same time.
+  // Returns a view of one state. The source must outlive the view, the state need not. Different views may be used
+  // concurrently.
   virtual std::unique_ptr<StateView> view(const State& state) const;
 
-  // One output of a state, where it is the only one that is wanted.
+  // Evaluates a single output of a state.
   std::vector<double> evaluate(const std::string& name, const State& state) const {
     return view(state)->evaluate(name);
   }
@@ -66,18 +66,18 @@ class OutputSource {
   virtual Geometry geometry() const { return {}; }
 };
 
-// A state with its source's view of it, which is made when it is first asked for and shared by all that look at the
-// state. For one thread at a time.
+// A state with its view, created at first use and shared by all observers of the state. Use it from one thread at a
+// time.
 class ObservedState {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   ObservedState(const OutputSource& source, const State& state) : source_(source), state_(state) {}
   ObservedState(const OutputSource& source, State&& state) = delete;
 
   double t() const { return state_.t; }
   const State& state() const { return state_; }
 
-  // For one that keeps the values of an output: who asks for it later gets a copy. `values` must outlive this.
+  // Makes evaluate() return known values of an output. `values` must outlive this object.
   void share(const std::string& name, std::span<const double> values) const { shared_[name] = values; }
 
   // As StateView::evaluate().

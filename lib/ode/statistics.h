@@ -1,4 +1,4 @@
-// What an integration cost: counts and seconds by kind of work.
+// The cost of an integration: counts and seconds by type of work.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,10 @@ struct Statistics {
   long steps = 0, rejected_steps = 0;  // rejected by the error test or for lack of convergence
   long error_test_failures = 0, convergence_failures = 0;
   long newton_iterations = 0;
-  long gauss_newton_fallbacks = 0;  // matrices rebuilt because a pivot was not positive
+  long gauss_newton_fallbacks = 0;  // replacements of an indefinite K by its Gauss-Newton part
   Cost force, tangent, factorization, solve;
-  Cost modes = {};        // the search for the modes of a reduced model, all that it solves included
-  Cost observation = {};  // of steps: what is written, events and extremes; counted where a run is driven
+  Cost modes = {};        // computation of the modes of a reduced model, including its linear solutions
+  Cost observation = {};  // output, events and extremes; counted by the run loop
 };
 
 // Adds one call and its duration to a Cost.

@@ -11,12 +11,13 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kLeast = 6;             // intervals between samples in the shortest part
-constexpr double kClose = 0.01;       // to a cubic, relative to the variation within the part,
-constexpr double kNegligible = 1e-4;  // or to the whole range, which is more than round-off
-constexpr double kJump = 0.01;        // of the range, within the shortest part
-constexpr double kKink = 1e-3;        // likewise, from one sample to the next beside those around
+constexpr int kLeast = 6;             // sampling intervals in the shortest part
+constexpr double kClose = 0.01;       // tolerance of a cubic, relative to the variation within the part
+constexpr double kNegligible = 1e-4;  // lower bound of that tolerance, relative to the whole range
+constexpr double kJump = 0.01;        // unresolved variation in the shortest part, relative to the range
+constexpr double kKink = 1e-3;        // excess change between two samples, relative to the range
 
+// Divides samples into parts over which they are close to a cubic, by bisection.
 class Parts {
  public:
   explicit Parts(std::vector<double> samples) : f_(std::move(samples)) {
@@ -26,7 +27,7 @@ class Parts {
     range_ = std::max(variation(0, f_.size() - 1), kRoundOff * largest);
   }
 
-  // The first and the last sample of each part, in their order.
+  // Indices of the ends of the parts, ascending.
   std::vector<std::size_t> ends() {
     std::vector<std::size_t> ends{0};
     divide(0, f_.size() - 1, ends);
@@ -55,7 +56,7 @@ class Parts {
 
   double change(std::size_t i) const { return f_[i + 1] - f_[i]; }
 
-  // At a kink alone, what changes from one sample to the next is between what changes before and after it.
+  // At a simple kink, the change between two samples lies between the changes before and after it.
   bool is_more_than_a_kink(std::size_t first, std::size_t last) const {
     for (std::size_t i = first > 0 ? first - 1 : first; i <= last && i + 1 < f_.size(); ++i) {
       const double before = change(i > 0 ? i - 1 : i + 1), after = change(i + 2 < f_.size() ? i + 1 : i - 1);
@@ -65,7 +66,7 @@ class Parts {
     return false;
   }
 
-  // That through four of its samples at equal distances.
+  // Compares with the cubic through four equidistant samples.
   bool is_close_to_a_cubic(std::size_t first, std::size_t last) const {
     const std::size_t third = (last - first) / 3;
     const double f0 = f_[first], f1 = f_[first + third], f2 = f_[first + 2 * third], f3 = f_[last];
@@ -103,7 +104,7 @@ StepLimits StepLimits::of(const std::function<double(double)>& function, double 
   return limits;
 }
 
-// What the function is at the ends may belong to the spans beside this one.
+// Takes samples slightly inside the span, because the values at its ends may belong to the adjacent spans.
 void StepLimits::add_smooth_span(const std::function<double(double)>& function, double start, double end,
                                  int most_parts) {
   constexpr double kInset = 1e-9;
@@ -115,7 +116,7 @@ void StepLimits::add_smooth_span(const std::function<double(double)>& function, 
   for (std::size_t i = 0; i < samples.size(); ++i) {
     try {
       samples[i] = function(time(i));
-    } catch (const ConfigError&) {  // the run will tell, if it comes so far
+    } catch (const ConfigError&) {  // the run reports the error if it reaches this time
       samples[i] = i > 0 ? samples[i - 1] : 0;
     }
   }

@@ -1,6 +1,6 @@
-// How long steps may be so that none passes over what a force or a motion does as a function of time alone, where no
-// error test would see it: a short pulse after a long rest. The span of time is divided into parts over each of which
-// the function is close to a cubic; a step is at most as long as the shortest part that it enters.
+// Limits of adaptive steps, so that no step misses a short change of a time function, such as a pulse after a long
+// rest, which no error test would detect. Time is divided into parts over which the function is close to a cubic; a
+// step is at most as long as the shortest part that it enters.
 #pragma once
 
 #include <functional>
@@ -14,30 +14,30 @@ class StepLimits {
  public:
   // No limit.
   StepLimits() = default;
-  // The same for all times, s.
+  // The same limit (s) at all times.
   explicit StepLimits(double longest) : longest_(longest) {}
-  // From samples of `function` between two times, s, where it is smooth but for `kinks`, at which steps end anyhow. It
-  // may throw ConfigError where it has no value.
+  // Limits from samples of `function` between two times (s). The function is smooth except at `kinks`, where steps end
+  // anyway. It may throw ConfigError at times at which it has no value.
   static StepLimits of(const std::function<double(double)>& function, double start, double end,
                        const std::vector<double>& kinks);
 
-  // Both limits hold from now on.
+  // Adds further limits; both apply.
   void add(const StepLimits& other);
 
-  // The latest end of a step that begins at t; infinite where there is no limit.
+  // Latest allowed end (s) of a step that starts at t (s); infinite if there is no limit.
   double latest_end(double t) const;
 
   // The ends of all parts, s.
   std::vector<double> ends() const;
 
-  // Where a function changes by more than a hundredth of its range within the shortest part, if it does, and by more
-  // than a kink: s.
+  // A time (s) at which a function changes by more than a hundredth of its range within the shortest part, other than
+  // at a kink. Empty if there is no such time.
   std::optional<double> unresolved() const { return unresolved_; }
-  // As many parts are told apart.
+  // Largest number of parts.
   static constexpr int kMostParts = 1 << 14;
 
  private:
-  using Grid = std::vector<double>;  // the ends of the parts, ascending
+  using Grid = std::vector<double>;  // ends of the parts, ascending
 
   void add_smooth_span(const std::function<double(double)>& function, double start, double end, int most_parts);
 

@@ -1,5 +1,5 @@
-// Products and norms of a model's vectors. Where several ranks hold parts of a vector they are those of the whole, the
-// same on all ranks; otherwise they cost what they cost without this.
+// Products and norms of a model's vectors. For vectors distributed over ranks they are those of the whole vector,
+// identical on all ranks; for a model of one process there is no overhead.
 #pragma once
 
 #include <cmath>
@@ -11,12 +11,12 @@ namespace orthodyn {
 
 class VectorSpace {
  public:
-  // Of vectors that are whole.
+  // Vectors of one process.
   VectorSpace() = default;
-  // Of vectors with `size` entries in all. `ranks`, null for whole ones, must outlive it.
+  // Vectors with `size` entries on all ranks together. `ranks` is null for one process and must outlive this object.
   VectorSpace(const Ranks* ranks, Eigen::Index size) : ranks_(ranks), size_(size) {}
 
-  // Entries of the whole of which x is this rank's part.
+  // Number of entries, on all ranks, of the vector whose part on this rank is x.
   Eigen::Index size(const ConstVectorRef& x) const { return ranks_ ? size_ : x.size(); }
 
   double sum(double of_part) const { return ranks_ ? ranks_->sum(of_part) : of_part; }
@@ -26,12 +26,12 @@ class VectorSpace {
 
   double dot(const ConstVectorRef& x, const ConstVectorRef& y) const { return sum(x.dot(y)); }
   double norm(const ConstVectorRef& x) const { return ranks_ ? std::sqrt(sum(x.squaredNorm())) : x.norm(); }
-  // Without overflow of the squares of one part.
+  // Norm in which the squares of one rank's part do not overflow.
   double stable_norm(const ConstVectorRef& x) const {
     const double part = x.stableNorm();
     return ranks_ ? std::sqrt(sum(part * part)) : part;
   }
-  // Of the entries' sizes; 0 without entries.
+  // Largest magnitude of an entry; 0 for an empty vector.
   double largest_entry(const ConstVectorRef& x) const {
     return largest(x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0);
   }

@@ -1,5 +1,4 @@
-#include "lib/petsc/allowed_options.h"
-
+// The options of PETSc that a scene may give: those that choose and tune a method.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,13 +9,14 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/spelling.h"
+#include "lib/petsc/session.h"
 
 namespace orthodyn::petsc {
 
 namespace {
 
-// As PETSc 3.18 has them, without "-". Those of MUMPS that set units of Fortran's output or write factors to the disk
-// are left out.
+// Options of PETSc 3.18, without "-". Options of MUMPS that set Fortran output units or write factors to disk are
+// excluded.
 const std::vector<std::string>& allowed() {
   static const std::vector<std::string> names{
       "ksp_atol", "ksp_cg_single_reduction", "ksp_chebyshev_eigenvalues", "ksp_chebyshev_esteig",
@@ -67,7 +67,7 @@ const std::vector<std::string>& allowed() {
   return names;
 }
 
-// Of solvers within solvers, which may be nested.
+// Prefixes of nested solvers.
 constexpr std::string_view kPrefixes[] = {"mg_levels_", "mg_coarse_", "mg_fine_",        "sub_",
                                           "redundant_", "telescope_", "pc_gamg_esteig_", "esteig_"};
 
@@ -79,19 +79,19 @@ std::string without_prefixes(std::string_view name) {
         name.remove_prefix(prefix.size());
         found = true;
       }
-    const auto digits = std::min(name.find_first_not_of("0123456789"), name.size());  // of a level
+    const auto digits = std::min(name.find_first_not_of("0123456789"), name.size());  // number of a level
     if (digits > 0 && digits < name.size() && name[digits] == '_') name.remove_prefix(digits + 1);
   }
   return std::string(name);
 }
 
-// As PETSc has it: -1e-3 is a value.
+// PETSc's rule: "-1e-3" is a value, not an option.
 bool is_name(std::string_view word) {
   return word.size() > 1 && word[0] == '-' &&
          (std::isalpha(static_cast<unsigned char>(word[1])) || word[1] == '-' || word[1] == '_');
 }
 
-// No quotes, and nothing that a file, its folder or a viewer is written with.
+// Excludes quotes and the characters of file names and viewers.
 bool is_plain(std::string_view word) {
   return std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-' || c == '+' || c == '.' || c == ',';
@@ -101,26 +101,25 @@ bool is_plain(std::string_view word) {
 }  // namespace
 
 void require_allowed(const std::string& options) {
-  constexpr const char* kElse = "; anything else goes in the environment's PETSC_OPTIONS";
+  constexpr const char* kElse = "; give other options in the environment variable PETSC_OPTIONS";
   std::istringstream words(options);
   bool is_first = true;
   for (std::string word; words >> word; is_first = false) {
     if (!is_plain(word))
-      throw ConfigError(
-          fmt::format("linear solver 'petsc': '{}': names and values of options have letters, digits and "
-                      "_ - + . , only{}",
-                      word, kElse));
+      throw ConfigError(fmt::format(
+          "linear solver 'petsc': '{}': names and values of options may contain only letters, digits and _ - + . ,{}",
+          word, kElse));
     if (is_name(word)) {
       const std::string name = without_prefixes(std::string_view(word).substr(1));
       if (std::find(allowed().begin(), allowed().end(), name) != allowed().end()) continue;
       throw ConfigError(
-          fmt::format("linear solver 'petsc': '{}' is not among the options that a scene may give, which "
-                      "are those that choose a method and set its numbers{}{}",
+          fmt::format("linear solver 'petsc': '{}' is not allowed in a scene, which may give only options that choose "
+                      "and tune a method{}{}",
                       word, did_you_mean(name, allowed()), kElse));
     }
     if (is_first)
       throw ConfigError("linear solver 'petsc': '" + options +
-                        "' is no list of options such as -ksp_type cg -pc_type gamg");
+                        "' is not a list of options such as -ksp_type cg -pc_type gamg");
   }
 }
 

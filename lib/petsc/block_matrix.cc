@@ -1,4 +1,4 @@
-// The matrix of a model that is whole. Values are this object's, which PETSc reads where they are.
+// The solver matrix of a model of one process. The values belong to this object; PETSc reads them in place.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,7 +42,7 @@ class BlockMatrix : public SolverMatrix {
     column_.resize(entries);
     values_.assign(entries, 0);
     next_.assign(start_.begin(), start_.end() - 1);
-    // Columns of the triangle ascend, and so do rows in each: each row is filled from left to right.
+    // Columns of the triangle ascend, and rows within each column too, so each row is filled from left to right.
     for_each_entry(pattern, [&](int i, int j, std::size_t) {
       const PetscInt row = place_[at(i)], column = place_[at(j)];
       column_[at(next_[at(row)]++)] = column;
@@ -62,7 +62,7 @@ class BlockMatrix : public SolverMatrix {
   bool set(const Pattern& pattern, const double* values) override {
     std::copy(start_.begin(), start_.end() - 1, next_.begin());
     bool usable = true;
-    double* into = nullptr;  // values_, of which PETSc learns in this way that they change
+    double* into = nullptr;  // = values_; PETSc must know that they change
     check(MatSeqAIJGetArray(matrix_, &into));
     for_each_entry(pattern, [&](int i, int j, std::size_t k) {
       const double value = values[k];

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "lib/core/errors.h"
 
@@ -11,11 +10,10 @@ namespace orthodyn::petsc {
 
 namespace {
 
-// Of the solution, in the energy norm: what round-off leaves of differences of energies. Smaller errors are told by the
-// residual.
+// Relative error in the energy norm below which energy differences are round-off and the residual is used instead.
 constexpr double kResolution = 1e-7;
-constexpr double kSafety = 2;        // of an error
-constexpr double kRoundOff = 1e-14;  // of the first residual: beyond it directions are made of round-off
+constexpr double kSafety = 2;        // factor on the estimated error
+constexpr double kRoundOff = 1e-14;  // relative to the first residual: below this, search directions are round-off
 
 }  // namespace
 
@@ -64,13 +62,13 @@ KSPConvergedReason EnergyTest::test(KSP method, PetscInt iteration, double resid
   gains_[0] = std::max(energy - energy_, 0.0);
   energy_ = energy;
   const double relative = std::max(tolerance_.relative, size > 0 ? absolute_ / size : 0);
-  const double error = kSafety * std::sqrt(missing_energy() / energy);  // NaN is not below anything
+  const double error = kSafety * std::sqrt(missing_energy() / energy);  // may be NaN
   if (!(error <= std::max(relative, kResolution))) return KSP_CONVERGED_ITERATING;
   if (relative < kResolution && residual > relative * first_residual_) return KSP_CONVERGED_ITERATING;
   return KSP_CONVERGED_RTOL;
 }
 
-// The sum of the gains to come, as a geometric series by the slower of the last rate and the mean one.
+// Sum of the future gains: a geometric series whose ratio is the larger of the last and the mean ratio of gains.
 double EnergyTest::missing_energy() const {
   constexpr double kNothing = std::numeric_limits<double>::epsilon();
   if (gains_[1] == 0) return gains_[0] == 0 && energy_ > 0 ? 0 : std::numeric_limits<double>::infinity();

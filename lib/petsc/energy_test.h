@@ -1,9 +1,9 @@
-// When conjugate gradients have come near enough to the solution: by the error itself, not by the residual, which a
-// preconditioner that is not perfect makes small while the error is large (bending of slender bodies).
+// Convergence test of conjugate gradients by an estimate of the error in the energy norm. The preconditioned residual
+// can be small while the error is large, as in bending of slender bodies.
 //
-// With x_0 = 0 each iterate has the energy x_k . A x_k = b . x_k, and what is missing to that of the solution is the
-// error's, |x - x_k|_A^2 (Hestenes & Stiefel 1952; Strakos & Tichy 2002). The gains of the last iterations, taken to go
-// on falling as they did, tell it.
+// With x_0 = 0 the iterates have the energy x_k . A x_k = b . x_k. It differs from the energy of the solution x by the
+// squared error |x - x_k|_A^2 (Hestenes & Stiefel 1952; Strakos & Tichy 2002). This difference is extrapolated from the
+// energy gains of the last iterations.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ namespace orthodyn::petsc {
 
 class EnergyTest {
  public:
-  // Makes `method` stop by this test, where it is the method of conjugate gradients. This must outlive it.
+  // Makes `method` use this test if it is conjugate gradients. This object must outlive `method`.
   void attach(KSP method);
 
-  // Of the next solutions, for the unknowns' number.
+  // Sets the tolerance of the next solutions. `unknowns`: number of unknowns of all ranks.
   void set(const SolveTolerance& tolerance, double unknowns);
 
  private:
@@ -26,9 +26,9 @@ class EnergyTest {
   double missing_energy() const;
 
   SolveTolerance tolerance_;
-  double absolute_ = 0;  // of the sum's norm
+  double absolute_ = 0;  // absolute tolerance of the 2-norm of x
   double first_residual_ = 0, energy_ = 0;
-  std::array<double, 4> gains_{};  // of energy, the latest first
+  std::array<double, 4> gains_{};  // energy gains, latest first
 };
 
 }  // namespace orthodyn::petsc

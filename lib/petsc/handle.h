@@ -1,4 +1,4 @@
-// Objects of PETSc that end with their owners.
+// Owning handles of PETSc objects.
 #pragma once
 
 #include <petscksp.h>
@@ -8,7 +8,7 @@
 
 namespace orthodyn::petsc {
 
-// Made and destroyed while a Session lives; an empty one needs none.
+// A non-empty handle must be created and destroyed during a Session.
 template <class Object, PetscErrorCode (*kDestroy)(Object*)>
 class Handle {
  public:
@@ -24,13 +24,13 @@ class Handle {
     if (object_) static_cast<void>(kDestroy(&object_));
     object_ = nullptr;
   }
-  // Where a function of PETSc's puts the object that it makes.
+  // Destroys the object held, and returns the address at which a PETSc function stores a new one.
   Object* receive() {
     reset();
     return &object_;
   }
   Object get() const { return object_; }
-  operator Object() const { return object_; }  // as PETSc's functions take it
+  operator Object() const { return object_; }  // NOLINT: for PETSc's functions
 
  private:
   Object object_ = nullptr;

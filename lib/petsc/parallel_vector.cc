@@ -1,9 +1,9 @@
-// SUNDIALS' vectors of several ranks (integrators/sundials/parallel_vector.h).
+// SUNDIALS vectors distributed over ranks (integrators/sundials/handles.h).
 #include <nvector/nvector_mpiplusx.h>
 
 #include "lib/petsc/session.h"
 
-// The clone has its own part and frees it; what it is a clone of does not own the one that it was made from.
+// Returns a clone, because only a clone owns and frees its local part.
 extern "C" [[gnu::visibility("default")]] N_Vector orthodyn_make_parallel_vector(N_Vector local, SUNContext context) {
   const N_Vector around = N_VMake_MPIPlusX(PETSC_COMM_WORLD, local, context);
   if (!around) return nullptr;

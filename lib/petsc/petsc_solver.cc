@@ -1,24 +1,21 @@
-// Conjugate gradients for matrices w_m M + w_d D + w_k K, by PETSc.
+// PETSc's conjugate gradients for matrices w_m M + w_d D + w_k K.
 //
-// Two preconditioners suit these. Where steps are short against the waves through an element the mass rules, and the
-// inverses of the diagonal's 3x3 blocks are enough; where they are long multigrid is needed, whose iterations are few
-// and dear. Which of them takes less is seen from the iterations for each digit. Multigrid is set up when there are new
-// values only once it has become worse than it was: the matrices of a run are alike.
+// Two preconditioners are used. If steps are short compared with the time a wave takes through an element, the mass
+// dominates and the inverse 3x3 diagonal blocks suffice. For long steps multigrid is needed, with few but expensive
+// iterations. The solver switches to multigrid according to the iterations per decimal digit of the residual. Matrices
+// of a run are similar, so multigrid is set up for new values only if its convergence has degraded.
 //
-// Multigrid is smoothed by Chebyshev's polynomials and coarsened by aggregates that keep the body's rigid motions. Its
-// prolongations are not smoothed: figures in docs/decisions.md.
+// Multigrid: Chebyshev smoother, coarsening by aggregation that keeps the body's rigid motions, unsmoothed prolongation
+// (measurements in docs/decisions.md).
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
 
 #include "lib/core/errors.h"
-#include "lib/linear/petsc_library.h"
 #include "lib/linear/solver.h"
-#include "lib/petsc/allowed_options.h"
 #include "lib/petsc/energy_test.h"
 #include "lib/petsc/handle.h"
 #include "lib/petsc/solver_matrix.h"
@@ -30,19 +27,20 @@ constexpr const char* kMultigrid = "-pc_type gamg -pc_gamg_agg_nsmooths 0 ";
 constexpr const char* kDiagonalBlocks = "-pc_type pbjacobi ";
 constexpr const char* kKrylov = "-ksp_type cg ";
 
-constexpr double kMostPerDigit = 40;  // iterations with diagonal blocks, from which multigrid takes less
-constexpr int kMostIterations = 500, kMostWithBlocks = 200;
-// Unknowns of each of several ranks: GAMG of PETSc 3.18 does not end where one has nothing to coarsen, and so small
-// systems need no multigrid.
+constexpr double kMaxPerDigit = 40;  // iterations per digit with diagonal blocks above which multigrid takes less time
+constexpr int kMaxIterations = 500, kMaxWithBlocks = 200;
+// Fewest unknowns per rank for multigrid on several ranks. GAMG of PETSc 3.18 does not terminate if a rank has nothing
+// to coarsen, and such small systems need no multigrid.
 constexpr int kFewestForMultigrid = 100;
-constexpr double kWorse = 1.5, kFewMore = 2;  // of multigrid: times and iterations a digit, until it is set up anew
-constexpr double kFewestDigits = 0.5;         // below which a solution says nothing
+// Multigrid is set up again above kDegraded * (iterations per digit after its set-up) + kMarginPerDigit.
+constexpr double kDegraded = 1.5, kMarginPerDigit = 2;
+constexpr double kFewestDigits = 0.5;  // solutions with fewer digits do not count for iterations per digit
 
 class PetscSolver : public LinearSolver {
  public:
-  explicit PetscSolver(std::string options) : given_(std::move(options)) {
+  explicit PetscSolver(std::string options) : scene_options_(std::move(options)) {
     const Session session;
-    const Options read(everywhere() + given_);
+    const Options read(environment_options() + scene_options_);
     has_own_preconditioner_ = read.has("-pc_type") || read.has("-ksp_type");
   }
 
@@ -56,8 +54,8 @@ class PetscSolver : public LinearSolver {
     release();
     pattern_ = &pattern;
     matrix_ = SolverMatrix::of(pattern);
-    takes_multigrid_ = !pattern.share || matrix_->fewest_unknowns() >= kFewestForMultigrid;
-    with_blocks_ = !has_own_preconditioner_;
+    allows_multigrid_ = !pattern.share || matrix_->fewest_unknowns() >= kFewestForMultigrid;
+    uses_blocks_ = !has_own_preconditioner_;
     check(MatCreateVecs(matrix_->get(), x_.receive(), b_.receive()));
     make_method();
   }
@@ -65,8 +63,8 @@ class PetscSolver : public LinearSolver {
   FactorStatus factor(const double* values) override {
     const Session session;
     if (!matrix_->set(*pattern_, values)) return FactorStatus::not_positive_definite;
-    is_new_ = false;
-    if (!is_set_up_ || !is_reusable() || is_worse_) set_up();
+    is_fresh_ = false;
+    if (!is_set_up_ || !is_reusable() || is_degraded_) set_up();
     return is_set_up_ ? FactorStatus::ok : FactorStatus::singular;
   }
 
@@ -82,25 +80,24 @@ class PetscSolver : public LinearSolver {
     const Session session;
     matrix_->scatter(b, b_);
     KSPConvergedReason reason = solve_once();
-    if (reason < 0 && with_blocks_ && takes_multigrid_ && !shows_indefinite(reason)) {
-      take_multigrid();
+    if (reason < 0 && uses_blocks_ && allows_multigrid_ && !shows_indefinite(reason)) {
+      switch_to_multigrid();
       reason = solve_once();
-      is_worse_ = is_gamg_;  // than with rigid motions
-    } else if (reason < 0 && !is_new_ && reason != KSP_DIVERGED_INDEFINITE_MAT) {
+      is_degraded_ = is_gamg_;  // to be set up again with rigid motions
+    } else if (reason < 0 && !is_fresh_ && reason != KSP_DIVERGED_INDEFINITE_MAT) {
       set_up();
       reason = solve_once();
     }
     if (shows_indefinite(reason)) throw IndefiniteMatrix("the linear system is indefinite");
     if (reason < 0)
-      throw RecoverableError(fmt::format("the linear solver does not converge ({} of PETSc, in {} iterations)",
+      throw RecoverableError(fmt::format("the linear solver does not converge (PETSc: {}, {} iterations)",
                                          KSPConvergedReasons[reason], last_iterations_));
-    if (with_blocks_ && takes_multigrid_ && per_digit_ > kMostPerDigit) is_to_change_ = true;
+    if (uses_blocks_ && allows_multigrid_ && per_digit_ > kMaxPerDigit) switches_to_multigrid_ = true;
     matrix_->gather(x_, x);
   }
 
-  // For a set-up.
   bool wants_rigid_motions() const override {
-    return with_blocks_ ? is_to_change_ : is_gamg_ && (!is_set_up_ || is_worse_);
+    return uses_blocks_ ? switches_to_multigrid_ : is_gamg_ && (!is_set_up_ || is_degraded_);
   }
 
   void set_rigid_motions(const Eigen::MatrixXd& motions) override {
@@ -109,18 +106,18 @@ class PetscSolver : public LinearSolver {
     matrix_->set_rigid_motions(motions);
   }
 
-  // Multigrid has operators on all levels, which measure about as much as two matrices, and vectors.
+  // Multigrid operators of all levels take about as much as two matrices; plus vectors.
   std::size_t factor_bytes() const override {
     if (!matrix_) return 0;
     constexpr double kHierarchy = 2;
-    return static_cast<std::size_t>((with_blocks_ ? 1 : 1 + kHierarchy) * static_cast<double>(matrix_->bytes())) +
+    return static_cast<std::size_t>((uses_blocks_ ? 1 : 1 + kHierarchy) * static_cast<double>(matrix_->bytes())) +
            8 * static_cast<std::size_t>(matrix_->rows()) * sizeof(double);
   }
 
-  // Of the solver's own, which nothing has asked for.
+  // The scene's options that no PETSc object has used.
   std::string unknown_options() const {
     const Session session;
-    const Options own(given_);
+    const Options own(scene_options_);
     std::string all;
     for (const std::string& name : options_->unused())
       if (own.has(("-" + name).c_str())) all += (all.empty() ? "-" : ", -") + name;
@@ -152,12 +149,13 @@ class PetscSolver : public LinearSolver {
     return name;
   }
 
-  static std::string everywhere() {
+  static std::string environment_options() {
     const char* options = std::getenv("PETSC_OPTIONS");
     return options ? std::string(options) + " " : "";
   }
 
-  // The diagonal's blocks are indefinite where A is; multigrid may be so because of it.
+  // An indefinite preconditioner also implies an indefinite A: diagonal blocks are parts of A, and multigrid operators
+  // derive from A.
   static bool shows_indefinite(KSPConvergedReason reason) {
     return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
   }
@@ -170,15 +168,15 @@ class PetscSolver : public LinearSolver {
     options_.reset();
     per_digit_ = fresh_per_digit_ = 0;
     iterations_ = solutions_ = set_ups_ = 0;
-    is_set_up_ = is_new_ = is_worse_ = is_to_change_ = is_gamg_ = false;
+    is_set_up_ = is_fresh_ = is_degraded_ = switches_to_multigrid_ = is_gamg_ = false;
   }
 
-  // The method and its preconditioner, from the options in force.
+  // Creates the Krylov method and its preconditioner from the current options.
   void make_method() {
-    options_ = std::make_unique<Options>(std::string(kKrylov) + (with_blocks_ ? kDiagonalBlocks : kMultigrid) +
-                                         everywhere() + given_);
-    const InUse in_use(*options_);
-    check(KSPCreate(ranks(), method_.receive()));
+    options_ = std::make_unique<Options>(std::string(kKrylov) + (uses_blocks_ ? kDiagonalBlocks : kMultigrid) +
+                                         environment_options() + scene_options_);
+    const ActiveOptions active(*options_);
+    check(KSPCreate(communicator(), method_.receive()));
     check(KSPSetOperators(method_, matrix_->get(), matrix_->get()));
     check(KSPSetFromOptions(method_));
     check(KSPSetResidualHistory(method_, nullptr, PETSC_DECIDE, PETSC_TRUE));
@@ -190,68 +188,68 @@ class PetscSolver : public LinearSolver {
     check(PCGetType(preconditioner, &kind));
     is_gamg_ = kind && std::string(kind) == PCGAMG;
     is_set_up_ = false;
-    if (is_gamg_ && !takes_multigrid_)
+    if (is_gamg_ && !allows_multigrid_)
       throw ConfigError(
-          fmt::format("linear solver 'petsc' with options '{}': multigrid does not end where a rank has "
-                      "less than {} unknowns; use fewer ranks, or no options",
-                      given_, kFewestForMultigrid));
+          fmt::format("linear solver 'petsc' with options '{}': multigrid does not terminate if a rank has fewer than "
+                      "{} unknowns; use fewer ranks, or no options",
+                      scene_options_, kFewestForMultigrid));
   }
 
-  MPI_Comm ranks() const { return pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF; }
+  MPI_Comm communicator() const { return pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF; }
 
   double unknowns() const {
     return pattern_->share ? static_cast<double>(pattern_->share->unknowns) : static_cast<double>(pattern_->n);
   }
 
-  void take_multigrid() {
-    with_blocks_ = is_to_change_ = false;
+  void switch_to_multigrid() {
+    uses_blocks_ = switches_to_multigrid_ = false;
     make_method();
     set_up();
   }
 
-  // A factorisation is of one matrix, as are the diagonal's blocks, which cost nothing.
+  // Factorisations and diagonal blocks are recomputed for each matrix.
   bool is_reusable() const {
     KSPType method = nullptr;
     check(KSPGetType(method_, &method));
-    return !with_blocks_ && std::string(method ? method : "") != KSPPREONLY;
+    return !uses_blocks_ && std::string(method ? method : "") != KSPPREONLY;
   }
 
   bool has_own_tolerance() const { return options_->has("-ksp_rtol") || options_->has("-ksp_atol"); }
-  PetscInt most() const {
+  PetscInt max_iterations() const {
     if (options_->has("-ksp_max_it")) return PETSC_DEFAULT;
-    return with_blocks_ && takes_multigrid_ ? kMostWithBlocks : kMostIterations;
+    return uses_blocks_ && allows_multigrid_ ? kMaxWithBlocks : kMaxIterations;
   }
 
   void set_up() {
-    if (is_to_change_) return take_multigrid();
-    if (is_gamg_ && is_set_up_) make_method();  // it would keep the rigid motions of its first set-up
-    const InUse in_use(*options_);
+    if (switches_to_multigrid_) return switch_to_multigrid();
+    if (is_gamg_ && is_set_up_) make_method();  // GAMG would keep the rigid motions of its first set-up
+    const ActiveOptions active(*options_);
     check(KSPSetReusePreconditioner(method_, PETSC_FALSE));
     check(KSPSetOperators(method_, matrix_->get(), matrix_->get()));
     check(KSPSetUp(method_));
     check(KSPSetReusePreconditioner(method_, PETSC_TRUE));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(KSPGetConvergedReason(method_, &reason));
-    is_set_up_ = !on_any(ranks(), reason == KSP_DIVERGED_PC_FAILED);  // which a rank knows of its own part
-    is_new_ = true;
-    is_worse_ = false;
+    is_set_up_ = !any_rank(communicator(), reason == KSP_DIVERGED_PC_FAILED);  // each rank knows only its own part
+    is_fresh_ = true;
+    is_degraded_ = false;
     fresh_per_digit_ = 0;
     ++set_ups_;
   }
 
   KSPConvergedReason solve_once() {
     if (!has_own_tolerance())
-      check(KSPSetTolerances(method_, tolerance_.relative, PETSC_DEFAULT, PETSC_DEFAULT, most()));
-    const InUse in_use(*options_);
+      check(KSPSetTolerances(method_, tolerance_.relative, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations()));
+    const ActiveOptions active(*options_);
     check(KSPSolve(method_, b_, x_));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(KSPGetConvergedReason(method_, &reason));
-    learn(reason);
+    record_iterations(reason);
     return reason;
   }
 
-  // How many iterations a digit takes, and whether multigrid has become worse than when it was set up.
-  void learn(KSPConvergedReason reason) {
+  // Updates the iterations per digit, and whether multigrid has degraded since its set-up.
+  void record_iterations(KSPConvergedReason reason) {
     PetscInt count = 0;
     check(KSPGetIterationNumber(method_, &count));
     last_iterations_ = static_cast<int>(count);
@@ -265,10 +263,10 @@ class PetscSolver : public LinearSolver {
     if (digits < kFewestDigits) return;
     per_digit_ = last_iterations_ / digits;
     if (fresh_per_digit_ == 0) fresh_per_digit_ = per_digit_;
-    if (per_digit_ > kWorse * fresh_per_digit_ + kFewMore) is_worse_ = true;
+    if (per_digit_ > kDegraded * fresh_per_digit_ + kMarginPerDigit) is_degraded_ = true;
   }
 
-  std::string given_;
+  std::string scene_options_;
   bool has_own_preconditioner_;
   const Pattern* pattern_ = nullptr;
   SolveTolerance tolerance_;
@@ -277,19 +275,19 @@ class PetscSolver : public LinearSolver {
   std::unique_ptr<Options> options_;
   OwnedMethod method_;
   OwnedVector x_, b_;
-  bool takes_multigrid_ = true;
-  bool with_blocks_ = false;
+  bool allows_multigrid_ = true;
+  bool uses_blocks_ = false;
   bool is_gamg_ = false;
   bool is_set_up_ = false;
-  bool is_new_ = false;        // set up for these very values
-  bool is_worse_ = false;      // than when it was set up
-  bool is_to_change_ = false;  // to multigrid, with the next values
+  bool is_fresh_ = false;               // set up for the current values
+  bool is_degraded_ = false;            // converges more slowly than after its set-up
+  bool switches_to_multigrid_ = false;  // switches with the next values
   double per_digit_ = 0, fresh_per_digit_ = 0;
   int last_iterations_ = 0;
   long iterations_ = 0, solutions_ = 0, set_ups_ = 0;
 };
 
-// Options are tried on three springs in each direction, so that a wrong one is told before a run.
+// Tries options on a chain of three springs in each direction, so that wrong options are reported before a run.
 void try_options(const std::string& options) {
   constexpr int kPoints = 4;
   Pattern pattern;
@@ -319,7 +317,7 @@ void try_options(const std::string& options) {
                       std::to_string(pattern.n) + " unknowns: " + e.what());
   }
   if (const std::string unknown = solver.unknown_options(); !unknown.empty())
-    throw ConfigError("linear solver 'petsc': unknown to this PETSc, or without effect here: " + unknown +
+    throw ConfigError("linear solver 'petsc': options unknown to this PETSc or without effect: " + unknown +
                       "; see the manual pages of KSPSetFromOptions and PCSetFromOptions");
 }
 

@@ -1,5 +1,4 @@
-// PETSc and MPI, started once and ended with the process; their calls, one thread at a time, with their errors as
-// exceptions.
+// PETSc and MPI in this process: started once, ended at exit, called by one thread at a time, errors as exceptions.
 #pragma once
 
 #include <petscksp.h>
@@ -14,44 +13,50 @@
 
 namespace orthodyn::petsc {
 
-// PETSc may be called while one of these lives; starts it first. Throws RunError if that fails.
+// PETSc may be called only while a Session exists. The first one starts PETSc; throws RunError if that fails.
 class Session {
  public:
   Session();
 
  private:
   std::unique_lock<std::mutex> one_at_a_time_;
-  std::optional<BlasThreadLimit> serial_blas_;  // its calls are short: a second thread would wait in vain
+  std::optional<BlasThreadLimit> serial_blas_;  // PETSc's BLAS calls are too short for several threads
 };
 
-// Throw RunError, with what PETSc says, for what is no success.
+// Throw RunError with PETSc's message if a call has failed.
 void check(PetscErrorCode code);
 void check_mpi(int code);
 
-// Whether it is so on one of the ranks. Collective.
-bool on_any(MPI_Comm ranks, bool here);
+// True if `here` is true on any of the ranks. Collective.
+bool any_rank(MPI_Comm ranks, bool here);
 
-// Options for PETSc's objects.
+// Throws ConfigError unless `options` is a list of options that a scene may give: those that choose and tune a method.
+// Other options write or read files (-ksp_view :FILE, -..._monitor, -options_file) or wait for the user (-petsc_sleep);
+// whoever starts the program may give them in PETSC_OPTIONS.
+void require_allowed(const std::string& options);
+
+// A set of options for PETSc objects.
 class Options {
  public:
-  // As on a command line; the later of two equal ones holds. Throws ConfigError for what is no list of options.
+  // `text`: options as on a command line; if an option is given twice, the later one applies. Throws ConfigError if the
+  // text is not a list of options.
   explicit Options(const std::string& text);
 
   bool has(const char* name) const;
-  std::vector<std::string> unused() const;  // names, without "-", of those that nobody has asked for
+  std::vector<std::string> unused() const;  // names, without "-", of options that no object has read
   PetscOptions get() const { return options_; }
 
  private:
   Handle<PetscOptions, PetscOptionsDestroy> options_;
 };
 
-// While it lives, these are the options that objects read.
-class InUse {
+// While an object of this class exists, PETSc objects read its options.
+class ActiveOptions {
  public:
-  explicit InUse(const Options& options);
-  ~InUse();
-  InUse(const InUse&) = delete;
-  InUse& operator=(const InUse&) = delete;
+  explicit ActiveOptions(const Options& options);
+  ~ActiveOptions();
+  ActiveOptions(const ActiveOptions&) = delete;
+  ActiveOptions& operator=(const ActiveOptions&) = delete;
 };
 
 }  // namespace orthodyn::petsc

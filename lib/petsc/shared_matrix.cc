@@ -1,5 +1,4 @@
-// The matrix of a model of which several ranks have parts: PETSc sums them, each rank then has the rows of its points.
-#include <algorithm>
+// The solver matrix of a distributed model: PETSc sums the ranks' entries, and each rank stores the rows of its points.
 #include <cmath>
 #include <limits>
 
@@ -16,7 +15,7 @@ class SharedMatrix : public SolverMatrix {
     const PatternShare& share = *pattern.share;
     const std::int64_t first = 3 * share.first_point;
     rows_ = 3 * share.owned_points;
-    if (on_any(PETSC_COMM_WORLD, first + rows_ > std::numeric_limits<PetscInt>::max()))
+    if (any_rank(PETSC_COMM_WORLD, first + rows_ > std::numeric_limits<PetscInt>::max()))
       throw RunError("the matrix has more than 2^31 rows; use a coarser mesh");
     for (int i = 0; i < share.owned; ++i) place_.push_back(static_cast<PetscInt>(share.row[at(i)] - first));
 
@@ -41,7 +40,7 @@ class SharedMatrix : public SolverMatrix {
     check(MatSetType(matrix_, MATMPIAIJ));
     check(MatSetBlockSize(matrix_, 3));
     check(MatSetPreallocationCOO(matrix_, static_cast<PetscCount>(row.size()), row.data(), column.data()));
-    Mat own = nullptr;  // the columns of this rank; else it would not know of the blocks whose inverses it is asked for
+    Mat own = nullptr;  // the diagonal block of this rank, which needs the block size for block preconditioners
     check(MatGetDiagonalBlock(matrix_, &own));
     check(MatSetBlockSize(own, 3));
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
@@ -60,16 +59,17 @@ class SharedMatrix : public SolverMatrix {
     double least = 0;
     check(MatGetDiagonal(matrix_, diagonal_));
     check(VecMin(diagonal_, nullptr, &least));
-    return !on_any(PETSC_COMM_WORLD, !is_finite || !(least > 0));
+    return !any_rank(PETSC_COMM_WORLD, !is_finite || !(least > 0));
   }
 
-  // With what PETSc keeps to sum entries by.
+  // Includes PETSc's data for summing entries.
   std::size_t bytes() const override { return 3 * values_.size() * sizeof(double); }
 
  private:
   static PetscInt to_index(std::int64_t row) { return static_cast<PetscInt>(row); }
 
-  std::vector<double> values_;  // as PETSc was told their places: the last ones, of held coordinates, are 1
+  // In the order of MatSetPreallocationCOO; the last ones, of constrained coordinates, are 1.
+  std::vector<double> values_;
   OwnedVector diagonal_;
 };
 

@@ -6,7 +6,7 @@ namespace orthodyn::petsc {
 
 namespace {
 
-// Columns that are orthonormal, by Gram and Schmidt's method twice. What depends on the columns before becomes zero.
+// Orthonormalises columns by two passes of Gram-Schmidt. Columns that depend on earlier ones become zero.
 void orthonormalize(const std::vector<OwnedVector>& columns) {
   constexpr double kDependent = 1e-8;
   for (std::size_t c = 0; c < columns.size(); ++c) {

@@ -1,6 +1,5 @@
-// A symmetric matrix of a model as PETSc takes it: all of it, by rows, in blocks of three. What multigrid knows of a
-// point's three coordinates it knows from their places: coordinates that are held have rows of their own, of the
-// identity.
+// A symmetric matrix of a model for PETSc: both triangles, by rows, in blocks of three. Multigrid identifies the three
+// coordinates of a point by their place in a block, so constrained coordinates have rows, too: rows of the identity.
 #pragma once
 
 #include <memory>
@@ -14,24 +13,26 @@ namespace orthodyn::petsc {
 
 class SolverMatrix {
  public:
-  // Of a pattern that is whole (block_matrix.cc), or of one of those of several ranks (shared_matrix.cc); then it is
-  // collective, as is all else. Precondition: the pattern is symmetric. Throws RunError for more than 2^31 entries.
+  // Makes the matrix for a pattern of one process (block_matrix.cc) or a distributed pattern (shared_matrix.cc). For a
+  // distributed pattern all functions are collective. Precondition: the pattern is symmetric. Throws RunError for more
+  // than 2^31 entries.
   static std::unique_ptr<SolverMatrix> of(const Pattern& pattern);
 
   virtual ~SolverMatrix() = default;
   SolverMatrix(const SolverMatrix&) = delete;
   SolverMatrix& operator=(const SolverMatrix&) = delete;
 
-  // False if a value is not finite, or one of the diagonal not positive: the matrix then is not to be used.
+  // Sets the values. False if a value is not finite or a diagonal entry is not positive; the matrix must then not be
+  // used.
   virtual bool set(const Pattern& pattern, const double* values) = 0;
 
-  // The six columns, n x 6, in the order of the unknowns.
+  // Gives multigrid the rigid motions. `motions`: n x 6, in the order of the unknowns.
   void set_rigid_motions(const Eigen::MatrixXd& motions);
 
   Mat get() const { return matrix_; }
-  int rows() const { return rows_; }  // of this rank
-  int fewest_unknowns() const;        // of a rank
-  // Between the unknowns and PETSc's vectors.
+  int rows() const { return rows_; }  // rows of this rank
+  int fewest_unknowns() const;        // smallest number of unknowns of a rank
+  // Copy between vectors of unknowns and PETSc's vectors.
   void scatter(const ConstVectorRef& x, Vec out) const;
   void gather(Vec x, VectorRef out) const;
 
@@ -42,12 +43,12 @@ class SolverMatrix {
 
   OwnedMatrix matrix_;
   int rows_ = 0;
-  std::vector<PetscInt> place_;  // of each unknown its row among those of this rank
+  std::vector<PetscInt> place_;  // local row of each unknown
 };
 
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// visit(row, column, k) for each entry k of a pattern's triangle.
+// Calls visit(row, column, k) for each entry k of a pattern's triangle.
 template <class Visit>
 void for_each_entry(const Pattern& pattern, Visit&& visit) {
   for (int j = 0; j < pattern.n; ++j)

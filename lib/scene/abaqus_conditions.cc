@@ -14,14 +14,14 @@
 #include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_sets.h"
 #include "lib/scene/abaqus_factors.h"
-#include "lib/scene/abaqus_turned_nodes.h"
+#include "lib/scene/abaqus_rotated_nodes.h"
 
 namespace orthodyn {
 namespace {
 
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-// Displacements that are held by a name. Source: *BOUNDARY, "types of boundary conditions".
+// Components that a named boundary condition fixes. Source: *BOUNDARY, "types of boundary conditions".
 const std::map<std::string, std::vector<std::size_t>>& named_supports() {
   static const std::map<std::string, std::vector<std::size_t>> all{
       {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}, {"XSYMM", {0}},     {"YSYMM", {1}},
@@ -58,24 +58,24 @@ class ConditionWriter {
   }
 
  private:
-  // Whether the first step neglects large displacements.
+  // Whether the first step is geometrically linear.
   bool is_linear() const {
     if (deck_.steps.empty()) return true;
     const AbaqusKeyword& step = deck_.steps.front();
     return !step.has("NLGEOM") || abaqus_word(step.parameter("NLGEOM")) == "NO";
   }
 
-  // Returns why the line is left out, or "".
+  // Converts a line; returns the reason if it is left out, else "".
   std::string add(const AbaqusCondition& c) {
-    if (c.step > 1) return "of a later step; the first is taken";
+    if (c.step > 1) return "belongs to a later step; only the first step is converted";
     if (c.step == 0 && replaced_.contains(c.keyword.name)) return "the first step removes it (OP=NEW)";
     for (const auto& [name, value] : c.keyword.parameters) {
       const bool is_plain = name == "OP" || name == "AMPLITUDE" ||
                             (name == "TYPE" && abaqus_word(value) == "DISPLACEMENT") ||
                             (name == "FOLLOWER" && abaqus_word(value) == "NO");
-      if (!is_plain) return fmt::format("{} is not read", name);
+      if (!is_plain) return fmt::format("{} is not supported", name);
     }
-    if (c.fields.empty()) return "nothing behind the set";
+    if (c.fields.empty()) return "no values after the set";
     if (std::string why = factors_.problem(c); !why.empty()) return why;
     if (c.keyword.name == "BOUNDARY") return add_support(c);
     if (c.keyword.name == "CLOAD") return add_force(c);
@@ -83,7 +83,7 @@ class ConditionWriter {
     return abaqus_word(c.fields[0]) == "GRAV" ? add_gravity(c) : add_face_load(c);
   }
 
-  // The name of a target in the mesh; none if the mesh has no such set, or surface.
+  // Name in the mesh of a condition's node set or surface; nullopt if the mesh does not have it.
   template <class Thing>
   std::optional<std::string> name_of_target(const AbaqusCondition& c, const std::map<std::string, Thing>& things,
                                             const auto& in_mesh) const {
@@ -98,24 +98,24 @@ class ConditionWriter {
     return name_of_target(c, deck_.surfaces, loaded_.mesh.surfaces);
   }
 
-  // Empty fields are zero; none where it is no number.
+  // Value of a field, `absent` if empty; nullopt if it is not a number.
   static std::optional<double> number(const AbaqusCondition& c, std::size_t field, double absent = 0) {
     if (field >= c.fields.size() || c.fields[field].empty()) return absent;
     return abaqus_number(c.fields[field]);
   }
 
-  // Components first to last of displacements, and their value; or a name for those that are held.
+  // Converts a *BOUNDARY line: first component, last component and value, or the name of a boundary condition.
   std::string add_support(const AbaqusCondition& c) {
     const auto set = node_set(c);
-    if (!set) return "no such nodes in the mesh";
+    if (!set) return "the mesh has no such nodes";
     if (const auto named = named_supports().find(abaqus_word(c.fields[0])); named != named_supports().end()) {
       for (const std::size_t k : named->second) support(*set, c).displacement[k] = Move{0, &c};
       return "";
     }
     const auto first = number(c, 0), last = number(c, 1, first.value_or(0)), value = number(c, 2);
-    if (!first || !last || !value) return "components or value are no numbers";
-    if (*first < 1 || *last < *first || *last > 6) return "it is of no displacement";
-    if (*first > 3) return "it is of rotations, which nodes of solids have not";
+    if (!first || !last || !value) return "components or value are not numbers";
+    if (*first < 1 || *last < *first || *last > 6) return "not a displacement component";
+    if (*first > 3) return "rotations, which nodes of solids do not have";
     for (std::size_t k = static_cast<std::size_t>(*first);
          k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
       support(*set, c).displacement[k - 1] = Move{*value * units_.length, &c};
@@ -136,7 +136,7 @@ class ConditionWriter {
     }
   };
 
-  // That of a set, to which a line belongs.
+  // The support of a set, created if needed; registers the line with it.
   Support& support(const std::string& set, const AbaqusCondition& line) {
     auto found = std::find_if(supports_.begin(), supports_.end(), [&](const Support& s) { return s.set == set; });
     if (found == supports_.end()) found = supports_.emplace(found, Support{.set = set});
@@ -144,13 +144,13 @@ class ConditionWriter {
     return *found;
   }
 
-  // Why the directions at the nodes of a set are not those of space, or "".
-  std::string turned(const std::string& set) const { return turned_.reason(loaded_.mesh.node_sets.at(set)); }
+  // Which *TRANSFORM rotates the directions at nodes of a set; "" if none.
+  std::string rotated(const std::string& set) const { return rotated_.reason(loaded_.mesh.node_sets.at(set)); }
 
   void add_supports() {
     for (const Support& s : supports_) {
-      // Where all three are zero, they are so in any directions.
-      if (const std::string why = turned(s.set); !why.empty() && !s.holds_all())
+      // If all three components are fixed, their directions do not matter.
+      if (const std::string why = rotated(s.set); !why.empty() && !s.holds_all())
         for (const AbaqusCondition* line : s.lines) leave_out(*line, why);
       else add_support(s);
     }
@@ -158,7 +158,7 @@ class ConditionWriter {
 
   void add_support(const Support& s) {
     std::vector<std::size_t> held;
-    std::map<std::string, std::vector<std::size_t>> moved;  // by factor, "" without amplitude
+    std::map<std::string, std::vector<std::size_t>> moved;  // moved components by factor; "" without amplitude
     for (std::size_t k = 0; k < 3; ++k)
       if (const auto& d = s.displacement[k]) (d->value == 0 ? held : moved[factors_.take(*d->line)]).push_back(k);
     if (!held.empty()) out_.clamps.push_back(fmt::format("{{nodes: {}{}}}", yaml_name(s.set), components_yaml(held)));
@@ -176,14 +176,14 @@ class ConditionWriter {
                                        has_corners ? "   # Abaqus/Standard rounds the corners (SMOOTH=0.25)" : ""));
   }
 
-  // A force on each node of a set.
+  // Converts a *CLOAD line: a force on each node of a set.
   std::string add_force(const AbaqusCondition& c) {
     const auto set = node_set(c);
-    if (!set) return "no such nodes in the mesh";
+    if (!set) return "the mesh has no such nodes";
     const auto component = number(c, 0), value = number(c, 1);
-    if (!component || !value || *component < 1) return "component or value are no numbers";
+    if (!component || !value || *component < 1) return "component or value is not a number";
     if (*component > 3) return "a moment; nodes of solids have no rotations";
-    if (std::string why = turned(*set); !why.empty()) return why;
+    if (std::string why = rotated(*set); !why.empty()) return why;
     const std::string factor = factors_.take(c);
     auto found = std::find_if(forces_.begin(), forces_.end(),
                               [&](const Force& f) { return f.set == *set && f.factor == factor; });
@@ -202,7 +202,7 @@ class ConditionWriter {
       const auto count = loaded_.mesh.node_sets.at(set).size();
       out_.terms.push_back(fmt::format("{{type: point_load, nodes: {}, force: {}{}}}{}", yaml_name(set),
                                        Value<Vec3>::yaml(static_cast<double>(count) * force), entry(factor),
-                                       count == 1 ? "" : fmt::format("   # of {} nodes together", count)));
+                                       count == 1 ? "" : fmt::format("   # total of {} nodes", count)));
     }
   }
 
@@ -211,8 +211,8 @@ class ConditionWriter {
   std::string add_pressure(const AbaqusCondition& c) {
     const auto name = surface(c);
     const auto value = number(c, 1);
-    if (!name) return "no such surface in the mesh";
-    if (!value) return "its pressure is no number";
+    if (!name) return "the mesh has no such surface";
+    if (!value) return "the pressure is not a number";
     out_.terms.push_back(fmt::format("{{type: pressure, surface: {}, pressure: {}{}}}", yaml_name(*name),
                                      number_text(*value * units_.stress), entry(factors_.take(c))));
     return "";
@@ -221,12 +221,12 @@ class ConditionWriter {
   std::string add_surface_load(const AbaqusCondition& c) {
     const std::string label = abaqus_word(c.fields[0]);
     if (label == "P") return add_pressure(c);
-    if (label != "TRVEC") return fmt::format("loads of type {} are not read", label);
+    if (label != "TRVEC") return fmt::format("loads of type {} are not supported", label);
     const auto name = surface(c);
     const auto traction = directed(c);
-    if (!name) return "no such surface in the mesh";
-    if (!is_linear() && !c.keyword.has("FOLLOWER")) return "it turns with the surface (FOLLOWER=YES is the default)";
-    if (!traction) return "its traction is no magnitude with a direction";
+    if (!name) return "the mesh has no such surface";
+    if (!is_linear() && !c.keyword.has("FOLLOWER")) return "a follower traction (FOLLOWER=YES is the default)";
+    if (!traction) return "the traction needs a magnitude and a direction";
     out_.loads.push_back(fmt::format("{{surface: {}, traction: {}{}}}", yaml_name(*name),
                                      Value<Vec3>::yaml(units_.stress * *traction), entry(factors_.take(c))));
     return "";
@@ -236,19 +236,19 @@ class ConditionWriter {
     const std::string label = abaqus_word(c.fields[0]);
     if (label.size() == 2 && label[0] == 'P' && std::isdigit(static_cast<unsigned char>(label[1])))
       return add_pressure(c);
-    return fmt::format("loads of type {} are not read", label);
+    return fmt::format("loads of type {} are not supported", label);
   }
 
   std::string add_gravity(const AbaqusCondition& c) {
-    if (c.keyword.has("AMPLITUDE")) return "gravity has no factor in time";
-    if (!covers_body(c)) return "it acts on a part of the body only";
+    if (c.keyword.has("AMPLITUDE")) return "gravity cannot vary in time";
+    if (!covers_body(c)) return "acts on a part of the body only";
     const auto g = directed(c);
-    if (!g) return "its acceleration is no magnitude with a direction";
+    if (!g) return "the acceleration needs a magnitude and a direction";
     gravity_ += *g;
     return "";
   }
 
-  // A magnitude, and three components of its direction.
+  // Vector from a magnitude and the components of a direction.
   static std::optional<Vec3> directed(const AbaqusCondition& c) {
     const auto size = number(c, 1), x = number(c, 2), y = number(c, 3), z = number(c, 4);
     if (!size || !x || !y || !z || Vec3(*x, *y, *z).norm() == 0) return std::nullopt;
@@ -278,7 +278,7 @@ class ConditionWriter {
   UnitFactors units_;
   bool is_static_;
   AbaqusFactors factors_{deck_.amplitudes};
-  AbaqusTurnedNodes turned_{deck_, loaded_.mesh};
+  AbaqusRotatedNodes rotated_{deck_, loaded_.mesh};
   std::set<std::string> replaced_;
   std::vector<Support> supports_;
   std::vector<Force> forces_;

@@ -1,4 +1,4 @@
-// Boundary conditions and loads of an Abaqus input file as entries of a scene.
+// Converts boundary conditions and loads of an Abaqus input file to YAML entries of a scene.
 //
 // Source: Abaqus keywords reference, *BOUNDARY, *CLOAD, *DLOAD, *DSLOAD, *STEP, *AMPLITUDE, *TRANSFORM.
 #pragma once
@@ -12,19 +12,20 @@
 
 namespace orthodyn {
 
-// Lines of YAML: a value, or the entries of the list of that name.
+// Converted conditions as lines of YAML: the value of `gravity`, and the entries of the lists.
 struct SceneConditions {
   std::string gravity = {};
   std::vector<std::string> clamps = {}, motions = {}, loads = {}, terms = {};
-  bool is_linear = false;                  // a step without NLGEOM
-  std::optional<double> end = {};          // of the first step, s, where factors are tables over its time
-  std::vector<std::string> left_out = {};  // "*CLOAD (line 12): ..."
+  bool is_linear = false;                  // the step has no NLGEOM
+  std::optional<double> end = {};          // end of the first step (s); empty if no amplitude became a table
+  std::vector<std::string> left_out = {};  // lines that were not converted: "*CLOAD (line 12): ..."
 };
 
-// Those of the model and of its first step. `loaded` is the same file's mesh, in SI units.
+// Converts the conditions of the model and of its first step. `loaded`: the mesh of the same file, converted to SI
+// units.
 SceneConditions conditions_of(const AbaqusFile& deck, const LoadedMesh& loaded, const AbaqusSceneOptions& options);
 
-// A name as YAML, in quotes where it needs them.
+// A name as YAML, quoted if necessary.
 std::string yaml_name(const std::string& name);
 
 }  // namespace orthodyn

@@ -42,8 +42,8 @@ std::vector<std::string> AbaqusFactors::not_taken() const {
   std::vector<std::string> out;
   for (const auto& [key, amplitude] : amplitudes_)
     if (!taken_.contains(key))
-      out.push_back(
-          fmt::format("*AMPLITUDE {} (line {}): nothing that is taken has it", amplitude.name, amplitude.place.line));
+      out.push_back(fmt::format("*AMPLITUDE {} (line {}): not used by a converted condition", amplitude.name,
+                                amplitude.place.line));
   return out;
 }
 

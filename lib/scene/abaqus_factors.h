@@ -1,4 +1,4 @@
-// Factors in time of a scene's loads and motions, by the AMPLITUDE= of an Abaqus input file's conditions.
+// Time functions of loads and motions from the AMPLITUDE parameters of an Abaqus input file.
 #pragma once
 
 #include <set>
@@ -11,18 +11,19 @@ namespace orthodyn {
 
 class AbaqusFactors {
  public:
-  // Must outlive this.
+  // `amplitudes` must outlive this object.
   explicit AbaqusFactors(const AbaqusAmplitudes& amplitudes) : amplitudes_(amplitudes) {}
 
-  // Why the amplitude of a condition of the first step cannot be taken; "" where it can, and where there is none.
+  // Why the amplitude of a condition of the first step cannot be converted; "" if it can be, or if the condition has
+  // none.
   std::string problem(const AbaqusCondition& condition) const;
 
-  // YAML of a table, which is constant beyond its ends as an amplitude is; "" for conditions without amplitude.
-  // Precondition: no problem.
+  // The condition's amplitude as the YAML of a table, which is constant beyond its ends; "" if the condition has none.
+  // The amplitude then counts as taken. Precondition: problem() is "".
   std::string take(const AbaqusCondition& condition);
 
   bool any_taken() const { return !taken_.empty(); }
-  std::vector<std::string> not_taken() const;  // "*AMPLITUDE Pulse (line 12): nothing that is taken has it"
+  std::vector<std::string> not_taken() const;  // "*AMPLITUDE Pulse (line 12): not used by a converted condition"
 
  private:
   const AbaqusAmplitudes& amplitudes_;

@@ -25,7 +25,7 @@ bool can_be_taken(const LoadedMesh& loaded) {
   });
 }
 
-// For readers: the scene takes these from the file.
+// Comments that list the materials; the scene itself reads them from the mesh file.
 std::string materials_in_comments(const LoadedMesh& loaded) {
   std::string text =
       "# Materials and axes come from the mesh file. Sections `materials` and `regions` in this scene replace them.\n";
@@ -82,15 +82,15 @@ std::string conditions_text(const SceneConditions& conditions) {
   return text;
 }
 
-// Tables of factors are over the time of the first step.
+// The times of amplitude tables count from the start of the first step.
 std::string time_text(const SceneConditions& conditions, bool is_static) {
   if (!conditions.end) return "";
   const std::string end = number_text(*conditions.end);
   if (!is_static) return fmt::format("\n# The first step of the file ends at {} s.\n", end);
-  return fmt::format("\ntime: {{end: {}}}   # s, the end of the first step, at which statics take all factors\n", end);
+  return fmt::format("\ntime: {{end: {}}}   # s, end of the first step, where statics evaluate all factors\n", end);
 }
 
-// What the scene does not have, beside conditions, which tell their own.
+// What was not converted. Conditions are not included, because they have their own list.
 std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMesh& loaded) {
   std::vector<std::string> names;
   for (const auto& [what, place] : deck.skipped) {
@@ -108,7 +108,7 @@ std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMes
   }
   for (const auto& [key, material] : deck.materials)
     if (!used.contains(key))
-      names.push_back(fmt::format("*MATERIAL {} (line {}): no section has it", material.name, material.place.line));
+      names.push_back(fmt::format("*MATERIAL {} (line {}): not used by a section", material.name, material.place.line));
   return names;
 }
 
@@ -116,7 +116,7 @@ std::string comment(const char* what, const std::vector<std::string>& names) {
   return names.empty() ? "" : fmt::format("# {}: {}\n", what, join(names));
 }
 
-// Names in the mesh, by whether they are the file's own or were made for the numbers in a condition.
+// Names in the mesh: those of the file or, if `made`, those made for node and face numbers in conditions.
 template <class Thing>
 std::vector<std::string> names_in(const auto& in_mesh, const std::map<std::string, Thing>& things, bool made) {
   std::set<std::string> of_conditions;
@@ -131,10 +131,10 @@ std::string names_in_comments(const AbaqusFile& deck, const LoadedMesh& loaded) 
   const auto& [surfaces, node_sets] = std::tie(loaded.mesh.surfaces, loaded.mesh.node_sets);
   std::vector<std::string> made = names_in(surfaces, deck.surfaces, true);
   for (auto& name : names_in(node_sets, deck.node_sets, true)) made.push_back(std::move(name));
-  return "\n# What the file has, for clamps, loads and probes.\n" +
+  return "\n# Names in the file, for clamps, loads and probes.\n" +
          comment("surfaces", names_in(surfaces, deck.surfaces, false)) +
          comment("node sets", names_in(node_sets, deck.node_sets, false)) +
-         comment("not in the file, but made of the nodes and faces that its conditions list", made);
+         comment("made from nodes and faces that conditions list by number", made);
 }
 
 }  // namespace

@@ -1,29 +1,28 @@
-// A scene to start from, with what an Abaqus input file has: mesh, materials, sections, orientations, boundary
-// conditions and loads.
+// Converts an Abaqus input file to a scene: mesh, materials, sections, orientations, boundary conditions and loads.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "lib/mesh/file_units.h"
+#include "lib/mesh/io/mesh_file.h"
 
 namespace orthodyn {
 
 struct AbaqusScene {
   std::string text;                   // YAML
-  std::vector<std::string> left_out;  // what the file has beside, with its lines; the text has it as comments
+  std::vector<std::string> left_out;  // what was not converted, with line numbers; `text` repeats it in comments
 };
 
-// How the scene goes on in time, and in which units the file is.
+// Whether the scene is static, and the units of the file.
 struct AbaqusSceneOptions {
   bool is_static = false;
   FileUnits units = FileUnits::si;
 };
 
-// The scene leaves out `materials` and `regions` where the file's can be used, which the program then does; else it has
-// those that can be read, and comments name the others and why. Where an *AMPLITUDE became a factor, a
-// static scene has `time`, the end of the first step. `path` is read, `file` is what the scene calls it. Throws
-// ConfigError as read_abaqus() does.
+// If all materials of the file can be used, the scene has no sections `materials` and `regions`; a run then reads both
+// from the mesh file. Otherwise the scene lists the materials that can be converted, and comments name the others with
+// the reason. A static scene gets `time` (the end of the first step) if an *AMPLITUDE became a factor. `path` is read;
+// the scene refers to it as `file`. Throws ConfigError as read_abaqus() does.
 AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options = {});
 
 }  // namespace orthodyn

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "lib/fem/elastic_region.h"
 #include "lib/fem/element_groups.h"
-#include "lib/fem/pattern_share.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
@@ -29,7 +27,7 @@ std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std
   return out;
 }
 
-// The cells of a region that a rank computes, by their numbers there and, if it is one of several, in the whole mesh.
+// A rank's cells of one region: local indices and, with several ranks, their indices in the whole mesh.
 struct CellsOfRank {
   std::vector<int> here, numbers;
 };
@@ -45,7 +43,7 @@ CellsOfRank cells_of_rank(const ElementMesh& own, const FemModel::Parts& parts, 
   return cells;
 }
 
-// `own`: the elements of this rank. Axes are known of the whole mesh.
+// Makes the elastic terms. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
 void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& own,
                     FemModel::Parts& parts, Warnings& notes) {
   const TetMesh& mesh = parts.mesh;
@@ -85,12 +83,12 @@ void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Part
   }
 }
 
-// What is held and moved, by the numbers of nodes of this rank.
-void take_part(const Subdomain& subdomain, std::vector<MovedNodes::Part>& moved) {
+// The next two functions restrict motions and supports to this rank, in its node numbering.
+void restrict_to_rank(const Subdomain& subdomain, std::vector<MovedNodes::Part>& moved) {
   for (auto& part : moved) part.nodes = subdomain.here(part.nodes);
 }
 
-void take_part(const Subdomain& subdomain, std::vector<Support>& supports) {
+void restrict_to_rank(const Subdomain& subdomain, std::vector<Support>& supports) {
   for (Support& support : supports) {
     std::vector<std::array<bool, 3>> held;
     for (std::size_t i = 0; i < support.nodes.size(); ++i)
@@ -104,8 +102,8 @@ void add_supports(Supports supports, const ElementMesh& elements, const std::vec
                   const NodalVector& rest, FemModel::Parts& parts) {
   if (parts.subdomain) {
     if (!supports.moved.empty()) parts.moved_everywhere = std::make_unique<MovedNodes>(supports.moved, rest);
-    take_part(*parts.subdomain, supports.moved);
-    take_part(*parts.subdomain, supports.named);
+    restrict_to_rank(*parts.subdomain, supports.moved);
+    restrict_to_rank(*parts.subdomain, supports.named);
   }
   if (!supports.moved.empty()) parts.moved = std::make_unique<MovedNodes>(std::move(supports.moved), *parts.rest);
   parts.supports = std::move(supports.named);
@@ -138,20 +136,20 @@ NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
   return all;
 }
 
-// Volumes and gradients of shapes, and their squares, must be numbers.
+// Volumes, shape gradients and their squares must not overflow or underflow.
 void require_size(const TetMesh& mesh) {
   constexpr double kSmallest = 1e-50, kLargest = 1e50;
   const Box box = bounding_box(mesh);
   const double smallest = box.size().minCoeff();
   const double largest = std::max(box.min.lpNorm<Eigen::Infinity>(), box.max.lpNorm<Eigen::Infinity>());
   if (smallest >= kSmallest && largest <= kLargest) return;
-  throw ConfigError("mesh",
-                    fmt::format("it extends from {} to {} m; extents below {:.0e} m and coordinates beyond {:.0e} m "
-                                "cannot be computed with; check the unit of length",
-                                Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max), kSmallest, kLargest));
+  throw ConfigError("mesh", fmt::format("extends from {} to {} m; extents must be at least {:.0e} m and coordinates at "
+                                        "most {:.0e} m; check the unit of length",
+                                        Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max), kSmallest, kLargest));
 }
 
-// Axes that the mesh file has for its elements, of a material that has directions.
+// Warns if the mesh file has element axes, but all regions have uniform axes and one has a material that is not
+// isotropic.
 void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& regions,
                          const std::vector<CellData>& data, Warnings& warnings) {
   const auto is_first_axis = [](const CellData& d) { return d.name == "axis_1" && d.components == 3; };
@@ -161,32 +159,28 @@ void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& r
   for (const Region* region : regions) {
     if (std::holds_alternative<IsotropicStiffness>(material_of(scene, *region).stiffness())) continue;
     warnings.push_back(region->origin.where +
-                       ": the mesh file has axes of its elements, which the scene does not use; "
-                       "if they are those of the material, give regions axes: {type: file, file: the mesh file}");
+                       ": the mesh file has element axes, which the scene does not use; if they are material axes, set "
+                       "axes: {type: file, file: the mesh file} for the regions");
     return;
   }
 }
 
-// With one quadratic element through a thickness its mean is blind for bending.
+// Warns that element means hide variation, such as bending of one quadratic element through the thickness.
 void add_note_on_means(const Scene& scene, const TetMesh& mesh, Warnings& warnings) {
   if (mesh.order() == 1) return;
   for (const std::string& field : scene.output.fields)
     if (field == "strain" || field == "stress" || field == "stress_material")
       warnings.push_back(
-          fmt::format("output.fields: '{0}' of a quadratic element is its mean, which hides how it "
-                      "varies within; nodal_{0} shows it",
+          fmt::format("output.fields: '{0}' of a quadratic element is its mean, which hides the variation within the "
+                      "element; nodal_{0} shows it",
                       field));
 }
 
-// What the materials had to change of the input.
+// Reports the changes that materials made to their input.
 void add_notes(const Scene& scene, Warnings& warnings) {
   for (const auto& [name, material] : scene.materials)
     for (const auto& note : material->notes()) warnings.push_back(fmt::format("material {}: {}", name, note));
 }
-
-}  // namespace
-
-namespace {
 
 NodalVector positions(const TetMesh& mesh) {
   NodalVector rest(3, static_cast<Eigen::Index>(mesh.nodes.size()));
@@ -202,19 +196,18 @@ void require_free_coordinates(const Scene& scene, const std::vector<bool>& held)
 
 void require_mass(double mass) {
   if (!std::isnormal(mass))
-    throw ConfigError("mesh",
-                      fmt::format("its mass is {:.3g} kg, with which nothing can be computed; check density and "
-                                  "unit of length",
-                                  mass));
+    throw ConfigError(
+        "mesh",
+        fmt::format("its mass is {:.3g} kg, which cannot be computed with; check density and unit of length", mass));
 }
 
-// What several ranks cannot share.
+// Several ranks support lumped masses only.
 void require_divisible(const Scene& scene) {
   if (scene.mass == MassKind::consistent)
     throw ConfigError("mass", "consistent does not run on several ranks; set `mass: lumped`");
 }
 
-// The unknowns of this rank by their numbers in the model that is not in parts.
+// Index of each of this rank's unknowns in the model on one rank.
 std::vector<int> unknowns_of(const Subdomain& subdomain, const std::vector<bool>& held) {
   std::vector<int> number;
   int count = 0;
@@ -245,7 +238,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   require_free_coordinates(scene, supports.held);
   NodePairs pairs = couplings(scene, parts.mesh);
 
-  TetMesh part;  // of several ranks what this one computes
+  TetMesh part;  // several ranks: this rank's part of the mesh
   if (ranks) {
     parts.subdomain = std::make_unique<Subdomain>(parts.mesh, pairs, *ranks);
     part = parts.subdomain->part_of(parts.mesh);
@@ -262,7 +255,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
                                      [&](const Region* r) { return elasticity_of(scene, *r).has_symmetric_tangent(); });
   const ElementMesh elements(own);
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
-  if (subdomain) parts.pattern->set_share(share_of(*parts.dofs, *subdomain));
+  if (subdomain) parts.pattern->set_share(*subdomain);
   const auto density = densities(scene, own, regions);
   parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
   require_mass(parts.mass->total());

@@ -1,4 +1,4 @@
-// From a scene to a model that can be integrated.
+// Builds a model from a scene.
 #pragma once
 
 #include <memory>
@@ -15,16 +15,15 @@ struct BuiltScene {
   Warnings warnings;
 };
 
-// How the model's matrices are stored: as the elasticity's tangent allows, symmetric or not, or all entries in any
-// case.
+// Matrix storage: symmetric if the tangents of elasticity are symmetric, or always general.
 enum class MatrixStorage { by_elasticity, general };
 
-// Loads the mesh and makes the terms that the scene names. On several ranks each has its part of the model, and all
-// call this. Throws ConfigError.
+// Loads the mesh and makes the scene's terms. With several ranks, each rank gets its part of the model; `ranks` is null
+// for one rank. Collective. Throws ConfigError.
 BuiltScene build(const Scene& scene, const Ranks* ranks = nullptr,
                  MatrixStorage storage = MatrixStorage::by_elasticity);
 
-// Whether the tangent of one of the scene's loads is unsymmetric, so that a symmetric matrix would hold a part of it.
+// Whether a load of the scene has an unsymmetric tangent. Symmetric storage would drop the skew part of that tangent.
 bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh);
 
 }  // namespace orthodyn

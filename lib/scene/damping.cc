@@ -7,7 +7,7 @@ const Spec<Damping>& Damping::spec() {
                             .key("mass", &Damping::mass, "Mass-proportional (Rayleigh alpha): drag on all motion.",
                                  {.unit = "1/s", .range = kNonNegative})
                             .key("stiffness", &Damping::stiffness,
-                                 "Stiffness-proportional (Rayleigh beta), objective: rigid motion is free of it.",
+                                 "Stiffness-proportional (Rayleigh beta), objective: no damping of rigid motion.",
                                  {.unit = "s", .range = kNonNegative});
   return s;
 }

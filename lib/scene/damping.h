@@ -1,4 +1,4 @@
-// Rayleigh damping, the section `damping`: a force -(alpha M + beta K) v.
+// The section `damping`: Rayleigh damping, force -(alpha M + beta K) v.
 #pragma once
 
 #include "lib/config/spec.h"

@@ -22,8 +22,8 @@ const Spec<Elasticity>& Elasticity::spec() {
                "that is accurate enough, otherwise corotational from the start, region by region; the summary says "
                "which and why.")
           .key("linear_error", &Elasticity::linear_error,
-               "With kinematics: auto, the error of displacements that linear kinematics may make, relative to the "
-               "largest; default ten times integrator.rtol, without one 1e-3.",
+               "With kinematics: auto, the allowed error of displacements by linear kinematics, relative to the "
+               "largest displacement; default ten times integrator.rtol, or 1e-3 without rtol.",
                {.range = {0, 1, true}})
           .key("corotation", &Elasticity::corotation,
                "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
@@ -33,11 +33,12 @@ const Spec<Elasticity>& Elasticity::spec() {
           .check([](const Elasticity& e, const Config& config) {
             const bool warped = e.corotation == Corotation::warped;
             if (warped && e.kinematics == Kinematics::linear)
-              config.at("corotation").fail("has no meaning with kinematics: linear; remove one of them");
+              config.at("corotation").fail("has no effect with kinematics: linear; remove one of them");
             if (warped && e.kinematics == Kinematics::automatic)
-              config.at("kinematics").fail("auto is for the exact force; with corotation: warped choose one");
+              config.at("kinematics")
+                  .fail("auto supports the exact force only; with corotation: warped set linear or corotational");
             if (e.warped_tangent == WarpedTangent::unsymmetric && !warped)
-              config.at("warped_tangent").fail("has no meaning without corotation: warped; remove it");
+              config.at("warped_tangent").fail("has no effect without corotation: warped; remove it");
           });
   return s;
 }

@@ -1,4 +1,4 @@
-// The elastic law of all elements, the section `elasticity`.
+// The section `elasticity`: the elastic law of all elements.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct EnumNames<Kinematics> {
 };
 
 struct Elasticity : ElasticityOptions {
-  std::optional<double> linear_error;  // allowed with kinematics: auto
+  std::optional<double> linear_error;  // relative to the largest displacement; for kinematics: auto only
   static const Spec<Elasticity>& spec();
 };
 

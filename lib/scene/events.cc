@@ -25,14 +25,14 @@ const Spec<EventSpec>& EventSpec::spec() {
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
                "(energy.kinetic, von_mises.largest).",
                {.required = true})
-          .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units or with a unit.",
+          .key("crosses", &EventSpec::crosses, "Threshold of the quantity, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})
-          .key("direction", &EventSpec::direction, "Which passings count.")
+          .key("direction", &EventSpec::direction, "Direction of the crossings that count.")
           .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run also ends there.")
           .key("name", &EventSpec::name, "Its name in events.csv; default the quantity.")
           .check([](const EventSpec& e, const Config& config) {
             if (e.name && e.name->find_first_of(",\"\n") != std::string::npos)
-              config.at("name").fail("goes into a CSV file: no commas, quotes or line breaks");
+              config.at("name").fail("is written to a CSV file: it must not contain commas, quotes or line breaks");
           });
   return s;
 }
@@ -42,7 +42,7 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
   for (const auto& spec : scene.events) {
     const Quantity quantity = find_quantity(spec.quantity, scene, model, spec.origin);
     if (!quantity.values)
-      spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
+      spec.origin.fail(fmt::format("'{}' is available at output times only; choose another quantity", spec.quantity));
     if (quantity.components() > 1) spec.origin.fail(quantity.ask_for_component());
     spec.crosses.require(quantity.unit, {spec.origin.where + ".crosses"});
     events.push_back({spec.name.value_or(spec.quantity),

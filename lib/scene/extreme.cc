@@ -1,4 +1,4 @@
-// Extremes of the fields of stress and strain over the nodes of a region.
+// Extremes of stress and strain fields over the nodes of a region.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace orthodyn {
 
 namespace {
 
-// FIELD or REGION.FIELD.
+// `field`: FIELD or REGION.FIELD.
 bool needs_strength(const std::string& field) {
   const auto& all = derived_fields();
   return std::any_of(all.begin(), all.end(), [&](const auto& f) {
@@ -22,14 +22,14 @@ bool needs_strength(const std::string& field) {
   });
 }
 
-// Of REGION.FIELD; null for a field of all regions.
+// The region of REGION.FIELD; null for a field of the whole body.
 const ElasticTerm* region_of(const std::string& field, const FemModel& model) {
   for (const auto& term : model.parts().elastic)
     if (field.starts_with(term->region() + ".")) return term.get();
   return nullptr;
 }
 
-// A field of one region, or of all of them where `region` is "".
+// A component of a field of one region, or of the whole body if `region` is "".
 struct FieldOfRegion {
   std::string region, field;
   std::size_t component = 0, components = 1;
@@ -54,8 +54,8 @@ std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel&
   return std::nullopt;
 }
 
-// Of the body, region by region: at a node of several regions the body's field is a mean of theirs, which hides a thin
-// layer between others.
+// Names of the field in each region. A field of the whole body is evaluated region by region, because its value at a
+// node of several regions is a mean, which would hide a thin layer.
 std::vector<std::string> names_in_regions(const FieldOfRegion& field, const FemModel& model) {
   const auto& terms = model.parts().elastic;
   if (!field.region.empty() || terms.size() == 1) return {field.name()};
@@ -64,15 +64,15 @@ std::vector<std::string> names_in_regions(const FieldOfRegion& field, const FemM
   return names;
 }
 
-// `sign` -1: the smallest.
-void take_in(const std::vector<double>& values, const FieldOfRegion& field, double sign, Extreme& extreme) {
+// Updates the extreme. `sign`: 1 for the largest, -1 for the smallest.
+void update_extreme(const std::vector<double>& values, const FieldOfRegion& field, double sign, Extreme& extreme) {
   for (std::size_t k = field.component; k < values.size(); k += field.components) {
     if (std::isnan(values[k]) || !(extreme.node < 0 || sign * values[k] > sign * extreme.value)) continue;
     extreme = {values[k], static_cast<int>(k / field.components)};
   }
 }
 
-// Of the whole mesh, whichever rank has the cell. Collective.
+// Whether an element of the term has the node, on any rank. Collective.
 bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm& term, int node) {
   const auto& own = model.ranks() ? term.definition().numbers : term.definition().cells;
   return model.space().any(std::any_of(own.begin(), own.end(), [&](int cell) {
@@ -83,8 +83,8 @@ bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm&
 
 void fail_without_strength(const std::string& field, const std::string& what, const SourceLocation& origin) {
   origin.fail(
-      fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
-                  "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
+      fmt::format("'{}' needs the strengths of {}: add strength: {{tension: [...], compression: [...], shear: [...]}} "
+                  "(Pa) to it, or use a preset with strengths (`orthodyn list presets`)",
                   field, what));
 }
 
@@ -105,8 +105,7 @@ void require_field_at(const std::string& field, int node, const FemModel& model,
   const ElasticTerm* const named = region_of(field, model);
   if (named && !has_node(model, mesh, *named, node))
     origin.fail(
-        fmt::format("'{}': the probe's node is not of region {}; move the probe, or take the field without a "
-                    "region",
+        fmt::format("'{}': the probe's node is not in region {}; move the probe, or use the field without a region",
                     field, named->region()));
   if (!needs_strength(field)) return;
   std::string region;
@@ -136,7 +135,7 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
   const double sign = which == "largest" ? 1 : -1;
   return [names = names_in_regions(*field, model), field = *field, sign](const ObservedState& observed) {
     Extreme extreme{std::numeric_limits<double>::quiet_NaN(), -1};
-    for (const std::string& region_field : names) take_in(observed.evaluate(region_field), field, sign, extreme);
+    for (const std::string& region_field : names) update_extreme(observed.evaluate(region_field), field, sign, extreme);
     return extreme;
   };
 }

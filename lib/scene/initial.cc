@@ -18,12 +18,12 @@ const Spec<Initial>& Initial::spec() {
   static const auto s =
       Spec<Initial>()
           .key("velocity", &Initial::velocity, "Rigid velocity.", {.unit = "m/s"})
-          .key("spin", &Initial::spin, "Rigid angular velocity about the centre.", {.unit = "rad/s"})
+          .key("spin", &Initial::spin, "Rigid angular velocity about `center`.", {.unit = "rad/s"})
           .key("velocity_field", &Initial::velocity_field,
                "Velocity added to the rigid one: three formulas of the rest position.", {.unit = "m/s"})
           .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.", {.unit = "m"})
           .key("deformation_gradient", &Initial::deformation_gradient,
-               "Uniform F about the centre; a singular one flattens the body, a negative determinant mirrors it.")
+               "Uniform F about `center`; a singular F flattens the body, a negative determinant mirrors it.")
           .key("displacement_field", &Initial::displacement_field,
                "Displacement added to the uniform one: three formulas of the rest position.", {.unit = "m"})
           .key("noise", &Initial::noise, "Random offsets.");
@@ -32,7 +32,7 @@ const Spec<Initial>& Initial::spec() {
 
 namespace {
 
-// Uniform in [-1, 1), the same on every platform.
+// Uniform in [-1, 1), identical on all platforms.
 double symmetric_uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-52 - 1; }
 
 Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
@@ -45,7 +45,7 @@ Vec3 center_of_mass(const FemModel::Parts& parts) {
   return moment / parts.mass->total();
 }
 
-// The same at each node for any number of ranks.
+// The noise of a node does not depend on the number of ranks.
 void add_noise(const Noise& noise, const FemModel::Parts& parts, NodalVector& u) {
   std::mt19937_64 generator(static_cast<std::uint64_t>(noise.seed));
   for (int node = 0; node < static_cast<int>(parts.mesh.nodes.size()); ++node) {
@@ -57,7 +57,7 @@ void add_noise(const Noise& noise, const FemModel::Parts& parts, NodalVector& u)
   }
 }
 
-// Of each node, for a body displaced by u.
+// Velocities of all nodes for a body displaced by u.
 NodalVector initial_velocity(const Initial& initial, const FemModel::Parts& parts, const NodalVector& u) {
   const Vec3 center = initial.center.value_or(center_of_mass(parts));
   NodalVector v(3, u.cols());

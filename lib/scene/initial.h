@@ -1,5 +1,5 @@
-// The state at the start, the section `initial`: uniform deformation about the centre, displacement by formulas, noise;
-// then rigid motion and velocity by formulas.
+// The section `initial`: the initial state. The displacement is the sum of a uniform deformation about `center`,
+// formulas and noise; the velocity is the sum of a rigid motion and formulas.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ struct Noise {
 struct Initial {
   Vec3 velocity = Vec3::Zero();                                   // m/s
   Vec3 spin = Vec3::Zero();                                       // rad/s
-  std::optional<std::array<PointFormula, 3>> velocity_field;      // m/s, of the rest position
+  std::optional<std::array<PointFormula, 3>> velocity_field;      // m/s, function of the rest position
   std::optional<Vec3> center;                                     // m; default the centre of mass
-  std::optional<Mat3> deformation_gradient;                       // about the centre
-  std::optional<std::array<PointFormula, 3>> displacement_field;  // m, of the rest position
+  std::optional<Mat3> deformation_gradient;                       // about `center`
+  std::optional<std::array<PointFormula, 3>> displacement_field;  // m, function of the rest position
   std::optional<Noise> noise;
   static const Spec<Initial>& spec();
 };
 
-// The state at `time` (s); without `initial` the rest shape, at rest.
+// The initial state at `time` (s); without `initial`, the undeformed body at rest.
 State initial_state(const std::optional<Initial>& initial, double time, const FemModel& model);
 
-// The same velocities, of a body whose free coordinates are at q (m).
+// The state at `time` (s) with free coordinates q (m) and the initial velocities.
 State initial_state_at(const Vector& q, const std::optional<Initial>& initial, double time, const FemModel& model);
 
 }  // namespace orthodyn

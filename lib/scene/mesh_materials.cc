@@ -31,28 +31,30 @@ void fill_axes_by_element(const Config& region, const std::string& file) {
   region.fill("axes", "{type: file}").fill_text("file", std::filesystem::absolute(file).string());
 }
 
-// What the file has for a material and we do not is refused, not dropped.
+// Refuses materials with properties that orthodyn does not support, instead of ignoring these properties.
 void check_can_be_taken(const MeshMaterial& m) {
   if (!m.problem.empty())
-    throw ConfigError(m.where, fmt::format("material '{}' of the mesh: {}; give `materials` in the scene, where the "
-                                           "file's are not used then",
-                                           m.name, m.problem));
+    throw ConfigError(
+        m.where,
+        fmt::format(
+            "material '{}' of the mesh: {}; give `materials` in the scene, which replaces the materials of the file",
+            m.name, m.problem));
   for (const auto& [where, name] : m.beyond)
-    throw ConfigError(where, fmt::format("material '{}' of the mesh: {} is not read, and only linear elasticity is "
-                                         "computed; to do so without it give `materials` in the scene (`orthodyn init "
-                                         "--from` writes them)",
-                                         m.name, name));
+    throw ConfigError(
+        where, fmt::format("material '{}' of the mesh: {} is not supported, only linear elasticity is; to compute "
+                           "without it, give `materials` in the scene (`orthodyn init --from` writes them)",
+                           m.name, name));
 }
 
 void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) {
   if (loaded.materials.empty())
-    config.fail("key 'materials' is missing, and the mesh file brings none; give materials and regions (" +
+    config.fail("key 'materials' is missing, and the mesh file has none; give materials and regions (" +
                 join(loaded.mesh.region_names) + ")");
   for (const auto& name : loaded.mesh.region_names)
     if (!loaded.materials.contains(name))
       config.fail(
-          fmt::format("key 'materials' is missing, and the mesh file says nothing of the material of its "
-                      "region '{}'; give materials and regions ({})",
+          fmt::format("key 'materials' is missing, and the mesh file has no material for its region '{}'; give "
+                      "materials and regions ({})",
                       name, join(loaded.mesh.region_names)));
 }
 

@@ -24,7 +24,7 @@ struct EnumNames<EnergyTimes> {
 
 namespace {
 
-// Their names are checked against the model's when it is built, which tells more.
+// The names are checked later, when the model is built, which allows better messages.
 template <class Names>
 Names read_names(const Config& c, const Rule& r) {
   Names out;
@@ -32,7 +32,7 @@ Names read_names(const Config& c, const Rule& r) {
   return out;
 }
 
-// A field of cells that nodes have by another name, such as nodal_stress.
+// Refuses cell fields that exist at nodes under another name, such as nodal_stress.
 void refuse_cell_fields(const Config& c, const NodeFields& names) {
   const auto all = FemModel(FemModel::Parts{}).outputs();
   const auto is_known = [&](const std::string& name, Location location) {
@@ -40,8 +40,7 @@ void refuse_cell_fields(const Config& c, const NodeFields& names) {
   };
   for (std::size_t i = 0; i < names.size(); ++i)
     if (is_known(names[i], Location::cell) && is_known("nodal_" + names[i], Location::node))
-      c.at(i).fail(
-          fmt::format("'{0}' is a field of cells, and a probe is at a node; did you mean 'nodal_{0}'?", names[i]));
+      c.at(i).fail(fmt::format("'{0}' is a cell field, but probes are at nodes; did you mean 'nodal_{0}'?", names[i]));
 }
 
 ValueSchema schema_of_names(const std::vector<Location>& locations) {
@@ -76,8 +75,8 @@ const Spec<Probe>& Probe::spec() {
       Spec<Probe>()
           .key("at", &Probe::at, "The node nearest to this point of the rest shape.", {.required = true, .unit = "m"})
           .key("fields", &Probe::fields,
-               "Node fields to record; of stress and strain also REGION.FIELD, at a node of several regions the value "
-               "of one.");
+               "Node fields to record; for stress and strain also REGION.FIELD, which gives the value in one region at "
+               "a node of several.");
   return s;
 }
 
@@ -99,35 +98,35 @@ const Spec<Output>& Output::spec() {
           .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
                {.range = {0, 1e9}})
           .key("history", &Output::history,
-               "When rows are written to probes.csv, energy.csv and momentum.csv; default with the frames.")
+               "When rows are written to probes.csv, energy.csv and momentum.csv; default: with the frames.")
           .key("times", &Output::times,
-               "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
+               "interpolated: frames from the integrator's own polynomial; exact: steps end at frame times.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
           .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
-          .key(
-              "extremes", &Output::extremes,
-              "Extremes of stress and strain over the run, with place and time, for the summary and run.json: "
-              "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Looked at by the history.")
+          .key("extremes", &Output::extremes,
+               "Extremes of stress and strain over the run, with place and time, in the summary and run.json: "
+               "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Evaluated at the rows of "
+               "the history.")
           .key("reactions", &Output::reactions,
                "Record in probes.csv the force and torque that every clamp and motion exerts on the body.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("accumulated_error", &Output::accumulated_error,
-               "After runs of about 500 steps or more, estimate how far the errors of the steps have added up by "
-               "integrating a few short parts again; costs a few per cent.")
+               "After runs of about 500 steps or more, estimate the accumulated error of the steps by integrating a "
+               "few short parts again; costs a few per cent.")
           .key("mesh_error", &Output::mesh_error,
-               "Estimate the error of the mesh: by finer elements in the state that is deformed the most, where these "
-               "have up "
-               "to 120,000 unknowns; else by stresses recovered at the nodes, at some of the outputs.")
+               "Estimate the discretisation error: by a finer mesh in the state with the largest deformation, if that "
+               "mesh has up to 120,000 unknowns; otherwise from recovered nodal stresses at some of the outputs.")
           .key("energy_times", &Output::energy_times,
                "outputs: energies are computed for the rows of energy.csv; steps: also after each step, and the drift "
-               "in the summary covers all of them. This costs about one evaluation of the forces per step.")
+               "in the summary covers all steps. Costs about one force evaluation per step.")
           .key("steps", &Output::steps, "Write steps.csv.")
           .key("momentum", &Output::momentum, "Write momentum.csv.")
           .check([](const Output& output, const Config& config) {
             if (output.interval && output.frames) config.fail("give one of interval, frames");
             for (const auto& [name, probe] : output.probes)
               if (name.find_first_of(",\"\r\n") != std::string::npos)
-                probe.origin.fail("its name goes into a CSV file: no commas, quotes or line breaks");
+                probe.origin.fail(
+                    "its name is written to a CSV file: it must not contain commas, quotes or line breaks");
           });
   return s;
 }
@@ -136,7 +135,7 @@ const Spec<CheckpointSchedule>& CheckpointSchedule::spec() {
   static const auto s =
       Spec<CheckpointSchedule>()
           .key("every", &CheckpointSchedule::every, "Wall time between checkpoints.", {.unit = "s", .range = kPositive})
-          .key("frames", &CheckpointSchedule::frames, "Also after every so many frames.", {.range = {1, 1e6}});
+          .key("frames", &CheckpointSchedule::frames, "Also after this number of frames.", {.range = {1, 1e6}});
   return s;
 }
 

@@ -1,4 +1,4 @@
-// What a run writes, and when: the sections `output`, with its probes, and `checkpoint`.
+// The sections `output`, with its probes, and `checkpoint`: what a run writes, and when.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ enum class OutputTimes { interpolated, exact };
 // When energies are computed.
 enum class EnergyTimes { outputs, steps };
 
-// Names of fields per node, and of those that frames may have: per node and per cell.
+// Names of node fields (for probes), and of node and cell fields (for frames).
 struct NodeFields : std::vector<std::string> {
   using vector::vector;
 };
 struct FrameFields : std::vector<std::string> {
   using vector::vector;
-  SourceLocation origin = {};  // "" of default ones
+  SourceLocation origin = {};  // empty for the default fields
 };
 
 template <>
@@ -44,7 +44,7 @@ struct Probe {
   static const Spec<Probe>& spec();
 };
 
-// When probes, reactions, energies and momenta are recorded, apart from the frames.
+// When probes, reactions, energies and momenta are recorded, if not with the frames.
 struct History {
   std::optional<double> interval;  // s
   bool steps = false;              // after each step
@@ -54,7 +54,7 @@ struct History {
 struct Output {
   std::optional<double> interval;  // s
   std::optional<int> frames;
-  std::optional<History> history;  // absent: with the frames
+  std::optional<History> history;  // empty: with the frames
   OutputTimes times = OutputTimes::interpolated;
   FrameFields fields{"displacement", "velocity"};
   Named<Probe> probes;
@@ -66,10 +66,10 @@ struct Output {
   static const Spec<Output>& spec();
 };
 
-// When the state is kept for `orthodyn run --resume`: whichever comes first.
+// When the state is saved for `orthodyn run --resume`: as soon as one of the two limits is reached.
 struct CheckpointSchedule {
   double every = 60;          // s of wall time
-  std::optional<int> frames;  // after so many frames
+  std::optional<int> frames;  // save also after this number of frames
   static const Spec<CheckpointSchedule>& spec();
 };
 

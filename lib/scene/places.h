@@ -1,4 +1,4 @@
-// Where the sections of a scene stand in the input: what is found out when a scene is built has no line of its own.
+// Input locations of a scene's sections, for errors found when the scene is built.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@ namespace orthodyn {
 class Places {
  public:
   Places() = default;
-  // `sections`: "file:line:column: key" by key; `file`: for what no section has.
+  // `sections`: "file:line:column: key" by key. `file`: location of errors without a section.
   Places(std::string file, std::map<std::string, std::string> sections)
       : file_(std::move(file)), sections_(std::move(sections)) {}
 
-  // With the section's line where the place is no more than its key, which `otherwise` is where there is none; the file
-  // alone where the scene has no such section.
-  ConfigError placed(const ConfigError& error, const std::string& otherwise = "") const {
-    const std::string& key = error.place().empty() ? otherwise : error.place();
+  // Adds a location to an error whose place is only a key: the line of that section, or the file if the scene has no
+  // such section. `fallback`: key of an error without a place.
+  ConfigError placed(const ConfigError& error, const std::string& fallback = "") const {
+    const std::string& key = error.place().empty() ? fallback : error.place();
     if (const auto found = sections_.find(key); found != sections_.end())
       return {found->second, error.message(), error.fault()};
     const bool is_key = key.find_first_of(":./ ") == std::string::npos;
@@ -27,13 +27,13 @@ class Places {
     return {key.empty() ? file_ : file_ + ": " + key, error.message(), error.fault()};
   }
 
-  // work(), whose ConfigErrors are placed.
+  // Returns work(); adds locations to the ConfigErrors that it throws.
   template <class Work>
-  auto with(Work&& work, const std::string& otherwise = "") const {
+  auto with(Work&& work, const std::string& fallback = "") const {
     try {
       return work();
     } catch (const ConfigError& error) {
-      throw placed(error, otherwise);
+      throw placed(error, fallback);
     }
   }
 

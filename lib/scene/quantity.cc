@@ -12,15 +12,15 @@ namespace orthodyn {
 
 namespace {
 
-constexpr std::size_t kNearest = 5;  // names in a message
+constexpr std::size_t kNearest = 5;  // names suggested in a message
 constexpr const char* kMagnitude = "magnitude";
 
-// Where a name starts with `prefix` and a dot: what follows, else "".
+// The part of a name after `prefix` and a dot; "" if the name does not start with them.
 std::string after(const std::string& name, const std::string& prefix) {
   return name.starts_with(prefix + ".") ? name.substr(prefix.size() + 1) : "";
 }
 
-// An output, or what it has at one node.
+// An output of the model, or its values at one node.
 struct Source {
   OutputInfo info;
   int node = -1;
@@ -46,14 +46,14 @@ Quantity make_quantity(const std::string& name, const Source& source, const std:
   quantity.values = [source, component](const ObservedState& observed) {
     const auto all = observed.evaluate(source.info.name);
     const auto first = source.node < 0 ? 0 : std::ptrdiff_t{source.node} * source.info.components;
-    // Of det_f.smallest the value, not the element.
+    // For det_f.smallest, only the value is taken, without the element.
     const auto count = std::max<std::ptrdiff_t>(std::ssize(source.info.component_names), 1);
     return pick(source, {all.begin() + first, all.begin() + first + count}, component);
   };
   return quantity;
 }
 
-// Every source that the scene has, by name.
+// All quantities of a scene by name, without components.
 std::vector<std::pair<std::string, Source>> sources(const Scene& scene, const FemModel& model) {
   std::vector<std::pair<std::string, Source>> all;
   for (const auto& info : model.outputs()) {
@@ -65,7 +65,7 @@ std::vector<std::pair<std::string, Source>> sources(const Scene& scene, const Fe
   return all;
 }
 
-// Names that a mistaken one may have meant.
+// Adds names of extremes, as suggestions for misspelt names.
 void add_extremes(std::vector<std::string>& known) {
   for (const OutputInfo& info : region_fields()) {
     if (info.component_names.empty()) known.push_back(info.name + ".largest");
@@ -99,11 +99,10 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     for (const auto& component : components) known.push_back(source_name + "." + component);
   }
   add_extremes(known);
-  origin.fail(
-      fmt::format("unknown quantity '{}'{} The nearest are {}. Take a probe of the scene with a field and a "
-                  "component (tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body "
-                  "(`orthodyn list quantities`)",
-                  name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
+  origin.fail(fmt::format(
+      "unknown quantity '{}'{} The nearest are {}. Use a probe of the scene with a field and a component "
+      "(tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body (`orthodyn list quantities`)",
+      name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
 }
 
 }  // namespace orthodyn

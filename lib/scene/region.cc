@@ -11,14 +11,13 @@
 namespace orthodyn {
 
 const Spec<Region>& Region::spec() {
-  static const auto s =
-      Spec<Region>()
-          .key("material", &Region::material, "One of `materials`.", {.required = true})
-          .key("axes", &Region::axes, "Directions of the material axes, the same everywhere or following the shape.",
-               {.fallback = "{type: directions}"})
-          .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
-               {.unit = "s", .range = kNonNegative})
-          .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.");
+  static const auto s = Spec<Region>()
+                            .key("material", &Region::material, "One of `materials`.", {.required = true})
+                            .key("axes", &Region::axes, "Directions of the material axes, uniform or varying in space.",
+                                 {.fallback = "{type: directions}"})
+                            .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
+                                 {.unit = "s", .range = kNonNegative})
+                            .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.");
   return s;
 }
 
@@ -28,7 +27,7 @@ void fill_regions(const Config& config, Scene& scene) {
   if (!scene.regions.empty()) return;
   if (scene.materials.size() != 1)
     config.fail("key 'regions' is missing: with " + std::to_string(scene.materials.size()) +
-                " materials, say which region has which");
+                " materials, give the material of each region");
   const Config regions = config.fill("regions", "{all: {}}");
   regions.at("all").fill_text("material", scene.materials.front().first);
   scene.regions = Value<Named<Region>>::read(regions, {});
@@ -49,9 +48,10 @@ void check_kinematics(const Config& config, const Scene& scene) {
   const auto first = std::find_if(scene.regions.begin(), scene.regions.end(), is_automatic);
   if (first == scene.regions.end()) {
     if (scene.elasticity.linear_error)
-      config.at("elasticity").at("linear_error").fail("has no meaning without kinematics: auto; remove it");
+      config.at("elasticity").at("linear_error").fail("has no effect without kinematics: auto; remove it");
   } else if (scene.elasticity.corotation == Corotation::warped) {
-    first->second.origin.fail("kinematics: auto is for the exact force; with corotation: warped choose one");
+    first->second.origin.fail(
+        "kinematics: auto supports the exact force only; with corotation: warped set linear or corotational");
   }
 }
 
@@ -92,7 +92,7 @@ std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mes
 const Material& material_of(const Scene& scene, const Region& region) {
   for (const auto& [name, material] : scene.materials)
     if (name == region.material) return *material;
-  region.origin.fail("unknown material");  // read_scene() has seen to this
+  region.origin.fail("unknown material");  // read_scene() has checked this
 }
 
 const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::string& mesh_region) {
@@ -100,10 +100,6 @@ const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::st
   for (const auto& entry : scene.regions)
     if (entry.first == mesh_region || (entry.first == "all" && !found)) found = &entry;
   return *found;
-}
-
-const Material& material_in(const Scene& scene, const std::string& mesh_region) {
-  return material_of(scene, entry_of(scene, mesh_region).second);
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// The material and axes of the mesh's regions, the section `regions`: an entry for each, or one for `all`.
+// The section `regions`: material and axes of the mesh's regions, with one entry for each region or one for `all`.
 #pragma once
 
 #include <memory>
@@ -26,23 +26,20 @@ struct Region {
   static const Spec<Region>& spec();
 };
 
-// Completes a scene without regions: its only material is everywhere. Throws ConfigError if there are several, or for a
-// material that the scene does not have.
+// Completes a scene without `regions`, whose only material fills the mesh. Throws ConfigError if such a scene has
+// several materials, if a region's material does not exist, or if kinematics and other options of elasticity conflict.
 void complete_regions(const Config& config, Scene& scene);
 
-// For each region of the mesh the entry of scene.regions that describes it. Throws ConfigError for regions without an
-// entry, and for entries without a region.
+// For each region of the mesh, the entry of scene.regions that describes the region. Throws ConfigError for mesh
+// regions without an entry and entries without a mesh region.
 std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh);
 
 const Material& material_of(const Scene& scene, const Region& region);
 
-// The scene's, with the region's own kinematics.
+// The scene's options of elasticity, with the region's kinematics if given.
 ElasticityOptions elasticity_of(const Scene& scene, const Region& region);
 
 // The entry that describes a region of the mesh.
 const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::string& mesh_region);
-
-// The material of a region of the mesh.
-const Material& material_in(const Scene& scene, const std::string& mesh_region);
 
 }  // namespace orthodyn

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "lib/material/admissible.h"
+#include "lib/material/material.h"
 #include "lib/scene/mesh_materials.h"
 
 namespace orthodyn {
@@ -25,6 +25,31 @@ struct EnumNames<Start> {
       {{Start::rest, "rest"}, {Start::equilibrium, "equilibrium"}}};
 };
 
+const Spec<TimeSpan>& TimeSpan::spec() {
+  static const auto s = Spec<TimeSpan>()
+                            .key("start", &TimeSpan::start, "Initial time.", {.unit = "s"})
+                            .key("end", &TimeSpan::end, "Final time.", {.required = true, .unit = "s"});
+  return s;
+}
+
+const Spec<Clamp>& Clamp::spec() {
+  static const auto s = selection_spec<Clamp>()
+                            .key("name", &Clamp::name, "Name of its reaction; default clamp_1, clamp_2 and so on.")
+                            .key("components", &Clamp::components, "Components that are fixed.")
+                            .check([](const Clamp& clamp, const Config& config) {
+                              clamp.check(config);
+                              if (clamp.components.empty())
+                                config.at("components").fail("is empty; give some of x, y, z");
+                            });
+  return s;
+}
+
+const Spec<Statics>& Statics::spec() {
+  static const auto s = LoadStepping::spec_for<Statics>().key(
+      "solver", &Statics::solver, "Finds the equilibrium of each load step.", {.fallback = "{type: kinsol}"});
+  return s;
+}
+
 const Spec<Buckling>& Buckling::spec() {
   static const auto s = Spec<Buckling>().key("count", &Buckling::count,
                                              "How many critical load factors, the lowest first.", {.range = {1, 1000}});
@@ -37,43 +62,43 @@ const Spec<Scene>& Scene::spec() {
       Spec<Scene>()
           .key("analysis", &Scene::analysis,
                "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
-               "buckling: the load factors at which the body at rest would buckle, and how (linear).")
+               "buckling: linear buckling loads and shapes of the undeformed body.")
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
           .key("materials", &Scene::materials,
                "Materials by name. Left out, those of the mesh file (.veg, .inp) are used, with the regions' axes.")
           .key("regions", &Scene::regions,
-               "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
-               "material everywhere.")
+               "Material and axes of each region of the mesh by its name, or of `all`; default: the only material "
+               "everywhere.")
           .key("elasticity", &Scene::elasticity, "Kinematics of the elastic law.")
           .key("mass", &Scene::mass, "Mass matrix.")
           .key("damping", &Scene::damping, "Rayleigh damping.")
           .key("gravity", &Scene::gravity, "Acceleration of free fall.", {.unit = "m/s^2"})
           .key("loads", &Scene::loads, "Loads on surfaces.")
-          .key("terms", &Scene::terms, "Further terms by type; for those of your own see docs/extend.md.")
-          .key("clamps", &Scene::clamps, "Nodes that do not move.")
+          .key("terms", &Scene::terms, "Further terms by type; docs/extend.md explains how to add your own.")
+          .key("clamps", &Scene::clamps, "Fixed nodes.")
           .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
           .key("start", &Scene::start,
                "rest: from the rest shape. equilibrium: from the static equilibrium under the loads at the start.",
                {.with = kDynamic})
           .key("initial", &Scene::initial, "Initial state; default at rest.", {.with = kDynamic})
-          .key("time", &Scene::time, "Time span; optional in statics, where factors of loads are evaluated at its end.",
+          .key("time", &Scene::time, "Time span; optional in statics, which evaluate factors of loads at its end.",
                {.fallback = "{end: 0}"})
-          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: auto}", .with = kDynamic})
-          .key("statics", &Scene::statics, "How equilibrium is found, for analysis: static and start: equilibrium.")
-          .key("buckling", &Scene::buckling, "What a buckling analysis looks for.",
+          .key("integrator", &Scene::integrator, "Time integrator.", {.fallback = "{type: auto}", .with = kDynamic})
+          .key("statics", &Scene::statics, "Equilibrium solver, for analysis: static and start: equilibrium.")
+          .key("buckling", &Scene::buckling, "Options of a buckling analysis.",
                {.with = Condition{"analysis", "buckling"}})
           .key("events", &Scene::events,
-               "Values that quantities cross; a crossing is logged to events.csv or ends the run.", {.with = kDynamic})
-          .key("output", &Scene::output, "What is written.")
+               "Thresholds of quantities; a crossing is logged to events.csv or ends the run.", {.with = kDynamic})
+          .key("output", &Scene::output, "Output files.")
           .key("checkpoint", &Scene::checkpoint,
-               "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {} for every "
+               "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {}: every "
                "minute.",
                {.with = kDynamic})
           .key("threads", &Scene::threads,
-               "Threads of a run; default: as many as the machine has. Loops over elements give the same bits with any "
-               "number of them. Points of studies have one.",
+               "Threads of a run; default: the number of hardware threads. Element loops give identical results with "
+               "any number of threads. Points of studies run with one thread.",
                {.range = kThreads})
-          .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
+          .key("expect", &Scene::expect, "Reference values, which `orthodyn verify` checks.");
   return s;
 }
 
@@ -92,12 +117,12 @@ void check_dynamic(const Config& config, Scene& scene, bool is_timed) {
   if (!(scene.time.end > scene.time.start)) config.at("time").fail("'end' must be after 'start'");
   const bool needs_statics = scene.start == Start::equilibrium;
   if (scene.statics && !needs_statics)
-    config.at("statics").fail("has no meaning in a run that starts from rest; remove it, or say start: equilibrium");
+    config.at("statics").fail("has no effect in a run that starts from rest; remove it, or set start: equilibrium");
   if (needs_statics && !scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
   if (const auto& initial = scene.initial; needs_statics && initial)
     if (initial->deformation_gradient || initial->displacement_field || initial->noise)
       config.at("initial").fail(
-          "the shape is that of equilibrium (start); remove deformation_gradient, displacement_field and noise");
+          "start: equilibrium determines the shape; remove deformation_gradient, displacement_field and noise");
 }
 
 bool varies_in_time(const SupportMotion& motion) {
@@ -107,9 +132,9 @@ bool varies_in_time(const SupportMotion& motion) {
   return motion.factor && !motion.factor->constant();
 }
 
-// Statics take all at one time, which nobody but the user knows.
+// Statics evaluate everything at one time, which the user must give.
 void require_time_of_statics(const Config& config, const Scene& scene) {
-  constexpr const char* kAsk = "its factor varies in time: say by time: {end: ...} at which time the statics take it";
+  constexpr const char* kAsk = "the factor varies in time: give time: {end: ...}, at which statics evaluate it";
   for (const Load& load : scene.loads)
     if (!load.factor->constant()) load.origin.fail(kAsk);
   for (std::size_t k = 0; k < scene.terms.size(); ++k) {
@@ -119,7 +144,7 @@ void require_time_of_statics(const Config& config, const Scene& scene) {
   }
   for (const SupportMotion& motion : scene.motions)
     if (varies_in_time(motion))
-      motion.origin.fail("it varies in time: say by time: {end: ...} at which time the statics take it");
+      motion.origin.fail("the motion varies in time: give time: {end: ...}, at which statics evaluate it");
 }
 
 void check_static(const Config& config, Scene& scene, bool is_timed) {
@@ -128,39 +153,39 @@ void check_static(const Config& config, Scene& scene, bool is_timed) {
   const Config output = config.at("output");
   for (const char* key : {"interval", "frames"})
     if (output.has(key) && !output.at(key).is_null())
-      output.at(key).fail("has no meaning in statics: there is a frame of each load step; remove it");
-  if (scene.output.times == OutputTimes::exact) output.at("times").fail("has no meaning in statics; remove it");
-  if (scene.output.momentum) output.at("momentum").fail("nothing moves in statics; remove it");
+      output.at(key).fail("has no effect in statics, which write a frame for each load step; remove it");
+  if (scene.output.times == OutputTimes::exact) output.at("times").fail("has no effect in statics; remove it");
+  if (scene.output.momentum) output.at("momentum").fail("is zero in statics; remove it");
 }
 
 void check_buckling(const Config& config, Scene& scene, bool is_timed) {
   if (!is_timed) require_time_of_statics(config, scene);
   if (scene.statics)
-    config.at("statics").fail("has no meaning in a linear buckling analysis; remove it, or say analysis: static");
+    config.at("statics").fail("has no effect in a linear buckling analysis; remove it, or set analysis: static");
   if (!scene.motions.empty())
     config.at("motions").fail(
-        "a buckling analysis takes loads that grow in proportion, and no prescribed displacements; "
-        "follow the path with analysis: static and find where it becomes unstable");
+        "are not supported in a buckling analysis, which needs loads that grow proportionally; follow the load path "
+        "with analysis: static instead");
   for (const Expectation& e : scene.expect)
-    if (!e.buckling) e.origin.fail("a buckling analysis has critical load factors only: {buckling: 1, value: ...}");
+    if (!e.buckling) e.origin.fail("a buckling analysis has critical load factors only: use {buckling: 1, value: ...}");
   const Output& output = scene.output;
   const Output usual;
   if (output.fields != usual.fields || !output.probes.empty() || !output.extremes.empty() || output.reactions ||
       output.momentum || output.interval || output.frames || output.history)
-    config.at("output").fail("a buckling analysis writes its load factors and shapes only; remove it");
+    config.at("output").fail(
+        "has no effect in a buckling analysis, which writes load factors and shapes only; remove it");
   if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
 }
 
-// A critical load factor is found by no other analysis.
 void check_expectations(const Scene& scene) {
   if (scene.analysis == Analysis::buckling) return;
   for (const Expectation& e : scene.expect)
-    if (e.buckling) e.origin.fail("'buckling' goes with analysis: buckling");
+    if (e.buckling) e.origin.fail("'buckling' needs analysis: buckling");
 }
 
 bool is_given(const Config& section, const std::string& key) { return section.has(key) && !section.at(key).is_null(); }
 
-// Terms whose defaults depend on the kinematics are read again with them.
+// Reads the terms whose defaults depend on the kinematics again, with these defaults.
 void complete_terms(const Config& config, Scene& scene) {
   for (std::size_t k = 0; k < scene.terms.size(); ++k) {
     const auto defaults = scene.terms[k]->defaults(scene.elasticity);
@@ -172,16 +197,16 @@ void complete_terms(const Config& config, Scene& scene) {
   }
 }
 
-// Those of plugins too, whose authors may not have looked.
+// Checks all materials, because those of plugins may not check themselves.
 void require_admissible_materials(const Config& config, const Scene& scene) {
   for (const auto& [name, material] : scene.materials)
     if (const std::string why = why_inadmissible(*material); !why.empty()) {
       const Config given = config.at("materials");
-      (given.is_map() && given.has(name) ? given.at(name) : given).fail("cannot be computed with: " + why);
+      (given.is_map() && given.has(name) ? given.at(name) : given).fail("cannot be used: " + why);
     }
 }
 
-// Their list is kept in memory; from a million on a run asks for --yes.
+// Limits the number of output times, because their list is kept in memory. Runs with a million or more need --yes.
 void require_countable_times(const Config& config, const Scene& scene) {
   constexpr double kMost = 1e9;
   const double span = scene.time.end - scene.time.start;
@@ -189,18 +214,13 @@ void require_countable_times(const Config& config, const Scene& scene) {
   if (interval && span / *interval > kMost)
     config.at("output")
         .at("interval")
-        .fail(fmt::format("gives {:.2g} frames, the most is {:.0e}; take a longer one", span / *interval, kMost));
+        .fail(fmt::format("gives {:.2g} frames, more than {:.0e}; increase it", span / *interval, kMost));
   if (history && history->interval && span / *history->interval > kMost)
     config.at("output")
         .at("history")
         .at("interval")
-        .fail(
-            fmt::format("gives {:.2g} rows, the most is {:.0e}; take a longer one", span / *history->interval, kMost));
+        .fail(fmt::format("gives {:.2g} rows, more than {:.0e}; increase it", span / *history->interval, kMost));
 }
-
-}  // namespace
-
-namespace {
 
 Places places_of(const Config& config) {
   std::map<std::string, std::string> sections;
@@ -213,7 +233,7 @@ Places places_of(const Config& config) {
 Scene read_scene(const Config& input) {
   const Config config = input.resolving();
   if (config.is_map() && config.has("scenes"))
-    config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
+    config.at("scenes").fail("is not a key of a scene; run a comparison of scenes by `orthodyn compare`");
   const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();
   Scene scene = Scene::spec().read(config);
   scene.places = places_of(config);

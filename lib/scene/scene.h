@@ -1,4 +1,4 @@
-// A scene: everything that one simulation consists of, checked, as plain data. SI units.
+// A scene: the checked input of one simulation as plain data, in SI units.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,6 @@
 #include "lib/material/material.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/ode/integrator.h"
-#include "lib/scene/clamp.h"
 #include "lib/scene/damping.h"
 #include "lib/scene/elasticity.h"
 #include "lib/scene/events.h"
@@ -24,15 +23,34 @@
 #include "lib/scene/output_files.h"
 #include "lib/scene/places.h"
 #include "lib/scene/region.h"
-#include "lib/scene/static_analysis.h"
-#include "lib/scene/time_span.h"
+#include "lib/statics/equilibrium.h"
+#include "lib/statics/load_stepper.h"
 
 namespace orthodyn {
 
 enum class Analysis { dynamic, statical, buckling };
 enum class Start { rest, equilibrium };
 
-// Linear buckling (lib/analysis/buckling.h).
+// The section `time`.
+struct TimeSpan {
+  double start = 0, end = 0;  // s
+  static const Spec<TimeSpan>& spec();
+};
+
+// An entry of the list `clamps`: nodes with fixed components.
+struct Clamp : Selection {
+  std::string name;
+  std::vector<Component> components{Component::x, Component::y, Component::z};
+  static const Spec<Clamp>& spec();
+};
+
+// The section `statics`: solver and load stepping of equilibria.
+struct Statics : LoadStepping {
+  std::shared_ptr<const EquilibriumChoice> solver;
+  static const Spec<Statics>& spec();
+};
+
+// The section `buckling` (lib/analysis/buckling.h).
 struct Buckling {
   int count = 6;
   static const Spec<Buckling>& spec();
@@ -43,7 +61,7 @@ inline constexpr Range kThreads{1, 1024};
 struct Scene {
   Analysis analysis = Analysis::dynamic;
   std::shared_ptr<const MeshSource> mesh;
-  std::shared_ptr<const LoadedMesh> loaded;  // where the mesh had to be read for its materials already
+  std::shared_ptr<const LoadedMesh> loaded;  // null unless the mesh was read for its materials
   Named<std::shared_ptr<const Material>> materials;
   Named<Region> regions;
   Elasticity elasticity;
@@ -58,25 +76,25 @@ struct Scene {
   Start start = Start::rest;
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
-  std::optional<Statics> statics;                      // of a static analysis and a start from equilibrium
-  std::optional<Buckling> buckling;                    // of a buckling analysis
+  std::optional<Statics> statics;                      // for analysis: static and start: equilibrium
+  std::optional<Buckling> buckling;                    // for analysis: buckling
   std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
-  std::optional<int> threads;  // of a run; none: as many as the machine has (RunThreads)
+  std::optional<int> threads;  // empty: number of hardware threads (RunThreads)
   Places places;
 
   static const Spec<Scene>& spec();
 
-  // Nothing moves: loads and supports are as at the end of the time span.
+  // Whether the analysis is static or buckling. Loads and supports are then evaluated at the end of the time span.
   bool is_static() const { return analysis != Analysis::dynamic; }
 
-  // What exerts forces beside elasticity, in the order in which they are added: gravity, loads, terms.
+  // All terms except elasticity, in the order of assembly: gravity, loads, terms.
   std::vector<const TermChoice*> force_terms() const;
 };
 
-// Reads a scene; a resolving() input records its defaults. Throws ConfigError.
+// Reads and checks a scene; defaults are recorded if `input` is resolving(). Throws ConfigError.
 Scene read_scene(const Config& input);
 
 }  // namespace orthodyn

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "lib/fem/motion/component.h"
-#include "lib/fem/motion/still_motion.h"
-
 namespace orthodyn {
 
 namespace {
@@ -18,12 +15,12 @@ bool wants_reactions(const Scene& scene) {
          });
 }
 
-// Which support each coordinate belongs to.
+// The support that each coordinate belongs to.
 class CoordinateOwners {
  public:
   explicit CoordinateOwners(const TetMesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
 
-  // Clamps may share coordinates; motions may not.
+  // Adds a clamp or, if `moves`, a motion. Clamps may share coordinates; motions may not.
   void add(const std::string& name, const Selection& selection, const std::vector<int>& nodes,
            const std::array<bool, 3>& components, bool moves) {
     check_name(name, selection.origin);
@@ -52,21 +49,20 @@ class CoordinateOwners {
   void check_name(const std::string& name, const SourceLocation& origin) const {
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
     if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
-      origin.fail(fmt::format("name: '{}' is no name; use letters, digits, _ and -", name));
+      origin.fail(fmt::format("name: '{}' is not a valid name; use letters, digits, _ and -", name));
     for (const Support& other : supports_)
       if (other.name == name) origin.fail(fmt::format("name: '{}' is used twice among clamps and motions", name));
   }
 
   [[noreturn]] void fail_twice(const SourceLocation& origin, int node, std::size_t component, int owner) const {
     origin.fail(
-        fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
-                    "overlap, or other components",
+        fmt::format("moves {} of the node at {} m, which already belongs to {}; select other nodes or components",
                     "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
                     supports_[static_cast<std::size_t>(owner)].name));
   }
 
   const TetMesh& mesh_;
-  std::vector<int> owner_;  // index of the support, -1 for none
+  std::vector<int> owner_;  // index of each coordinate's support; -1 for none
   std::vector<Support> supports_;
 };
 
@@ -77,9 +73,28 @@ std::string named(const std::string& given, const char* kind, std::size_t index)
 void check_velocity(const Scene& scene, const SupportMotion& given, const Motion& motion) {
   if (scene.mass == MassKind::lumped || motion.has_continuous_velocity()) return;
   given.origin.fail(
-      "its velocity may jump at a kink, which a consistent mass answers by an infinite force on the "
-      "neighbours; use a smooth_step, or mass: lumped");
+      "the velocity may jump at a kink, which with a consistent mass causes an infinite force on neighbouring nodes; "
+      "use a smooth_step, or mass: lumped");
 }
+
+// For static analysis: the displacements of another motion at `time`, with zero velocity and acceleration. They grow
+// linearly during the second before `time` (Parts::loads_at in fem_model.h).
+class StillMotion : public Motion {
+ public:
+  // `time`: when the displacements are complete, s.
+  StillMotion(std::shared_ptr<const Motion> places, double time) : places_(std::move(places)), time_(time) {}
+
+  Moved at(double t, const NodalVector& X) const override {
+    const NodalVector none = NodalVector::Zero(3, X.cols());
+    return {places_->part_of_way(std::clamp(t - (time_ - 1), 0.0, 1.0), time_, X), none, none};
+  }
+  std::vector<double> kinks() const override { return {}; }
+  bool has_continuous_velocity() const override { return true; }
+
+ private:
+  std::shared_ptr<const Motion> places_;
+  double time_;
+};
 
 std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given, const TetMesh& mesh,
                                         const std::vector<int>& nodes) {

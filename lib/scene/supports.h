@@ -1,5 +1,5 @@
-// The clamps and motions of a scene on its mesh: which coordinates are no unknowns, how they move, and which of
-// them belong to which name. In a static analysis they stand still where their motion has brought them.
+// Clamps and motions of a scene on its mesh: which coordinates are prescribed, how they move, and to which named
+// supports they belong. In a static analysis, motions are at rest in their final position.
 #pragma once
 
 #include "lib/fem/fem_model.h"
@@ -10,12 +10,12 @@ namespace orthodyn {
 struct Supports {
   std::vector<bool> held;  // held[3 * node + component]
   std::vector<MovedNodes::Part> moved;
-  std::vector<Support> named;  // only where the scene wants reactions
+  std::vector<Support> named;  // empty unless the scene uses reactions
 };
 
-// A coordinate of several clamps belongs to the first of them. Throws ConfigError for a selection without nodes, a
-// coordinate that is moved twice or held and moved, a name that is used twice, and a jump of velocity that a
-// consistent mass would answer by an infinite force.
+// A coordinate of several clamps belongs to the first. Throws ConfigError for a selection without nodes, a coordinate
+// with two motions or with a clamp and a motion, a duplicate name, and a possible velocity jump with a consistent mass,
+// which would need an infinite force.
 Supports make_supports(const Scene& scene, const TetMesh& mesh);
 
 }  // namespace orthodyn

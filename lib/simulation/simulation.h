@@ -1,10 +1,10 @@
-// A scene, run from its file to its results as `orthodyn run` does:
+// Runs a scene from its file to its results, as `orthodyn run` does:
 //
 //   auto simulation = orthodyn::Simulation::from_file("scene.yaml", {.set = {"integrator.rtol=1e-5"}});
 //   const orthodyn::RunResult result = simulation.run({.folder = "out/scene"});
 //
-// writes what the scene asks for (frames, energies, probes, ...), scene.yaml and run.json into the folder. Nothing is
-// printed: see RunListener. One simulation is for one thread; several may run side by side in folders of their own.
+// writes the outputs of the scene (frames, energies, probes, ...), scene.yaml and run.json into the folder. Nothing is
+// printed: see RunListener. A Simulation is for one thread; several may run in parallel in different folders.
 #pragma once
 
 #include <atomic>
@@ -20,26 +20,25 @@ namespace orthodyn {
 
 class Simulation {
  public:
-  // Throws ConfigError for a file that cannot be read, one that is no scene, and a change that does not apply.
+  // Throws ConfigError for an unreadable file, a file that is not a scene, and a change that does not apply.
   static Simulation from_file(const std::string& file, const SceneChanges& changes = {});
 
-  // The same of a scene as text, called `name` in messages; files that it names are looked for where `name` is.
+  // A scene given as text. `name` stands for its file in messages and resolves relative paths.
   static Simulation from_text(const std::string& text, const std::string& name, const SceneChanges& changes = {});
 
-  // With the changes, not validated.
+  // The scene with the changes applied, not yet validated.
   const Config& scene() const { return scene_; }
 
-  // Validates the scene, builds its model and computes it. A run that could not go on is a result: see its outcome.
-  // Throws ConfigError for a scene or a folder that is at fault, before anything is written, and RunError for files
-  // that cannot be written.
+  // Validates and builds the scene, and runs it. A failed computation is a result: see its outcome. Throws ConfigError
+  // for an invalid scene or folder before anything is written, RunError if a file cannot be written.
   RunResult run(const RunRequest& request) const;
 
-  // Ends soon after `interrupt` becomes true, and can then be resumed. The listener is told what happens.
+  // Stops soon after `interrupt` becomes true; the run can then be resumed.
   RunResult run(const RunRequest& request, const std::atomic<bool>& interrupt) const;
   RunResult run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const;
 
  private:
-  RunResult run_once(Config scene, const RunRequest& request, const std::string& given_up,
+  RunResult run_once(Config scene, const RunRequest& request, const std::string& restart_reason,
                      const std::atomic<bool>& interrupt, RunListener& listener) const;
 
   static Simulation from_config(Config scene, const std::string& file, const SceneChanges& changes);
@@ -50,7 +49,7 @@ class Simulation {
   std::string file_;
   SceneChanges changes_;
   Config scene_;        // with the changes
-  std::string notice_;  // of what the changes have left out; may be empty
+  std::string notice_;  // says which integrator keys the changes dropped; may be ""
 };
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// A point of a path of equilibria at which its stiffness is singular, or where the path turns aside (load_stepper.h).
+// A point of a path of equilibria at which the stiffness is singular or the path turns sharply (load_stepper.h).
 #pragma once
 
 #include <optional>
@@ -6,16 +6,16 @@
 namespace orthodyn {
 
 struct CriticalPoint {
-  // turn: K is not singular, but a body that is not quite straight buckles; or it loses a support. The displacement
-  // grows far faster with the load than at first.
+  // turn: K is regular, but displacements grow far faster with the load than at the start: an imperfect body buckles,
+  // or the body loses a support.
   enum class Kind { limit, bifurcation, turn };
   Kind kind = Kind::limit;
   double load_factor = 0;
-  double uncertainty = 0;       // of load_factor
-  std::optional<int> unstable;  // directions past it; none: not known
+  double uncertainty = 0;       // uncertainty of load_factor
+  std::optional<int> unstable;  // number of unstable directions past the point; empty if unknown
 };
 
-// "limit point", "bifurcation", "sharp turn".
+// Returns "limit point", "bifurcation" or "sharp turn".
 inline const char* words_of(CriticalPoint::Kind kind) {
   switch (kind) {
     case CriticalPoint::Kind::limit: return "limit point";

@@ -30,7 +30,7 @@ LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start, Loa
     : model_(model), times_(times), traits_(model.traits()), start_(std::move(start)) {
   bool is_finite = false;
   try {
-    divide(loaded);
+    split_forces(loaded);
     const Vector first = rate(0, start_);
     largest_load_ = space().largest_entry(first);
     is_finite = space().is_finite(first);
@@ -40,7 +40,7 @@ LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start, Loa
   if (!is_finite) throw RunError("the forces at the start are not finite; check the loads", Reason::force);
 }
 
-void LoadPath::divide(Loaded loaded) {
+void LoadPath::split_forces(Loaded loaded) {
   const auto load_parts = model_.load_parts();
   if (!load_parts) {
     unbalanced_ = force_at_rest(model_, times_.begin, start_);
@@ -51,11 +51,11 @@ void LoadPath::divide(Loaded loaded) {
     unbalanced_ = force_at_rest(*structure_, times_.begin, start_);
   } else if (!load_parts->empty()) {
     loads_ = model_.only(*load_parts);
-    look_at_loads();
+    classify_loads();
   }
 }
 
-void LoadPath::look_at_loads() {
+void LoadPath::classify_loads() {
   Linearization at;
   loads_->linearize(times_.begin, start_, Vector::Zero(start_.size()), TangentKind::exact, at);
   const bool has_tangent_here = std::any_of(at.stiffness.begin(), at.stiffness.end(), [](double k) { return k != 0; });
@@ -84,7 +84,7 @@ Vector LoadPath::rate(double lambda, const ConstVectorRef& q) const {
     if (loads_) return force_at_rest(*loads_, times_.end, q);
     return unbalanced_.size() > 0 ? unbalanced_ : dead_.size() > 0 ? dead_ : Vector(Vector::Zero(q.size()));
   }
-  constexpr double kStep = 1e-5;  // of lambda: errors of 1e-10, by the square of the step and by round-off
+  constexpr double kStep = 1e-5;  // step of lambda; truncation (step squared) and round-off each cause errors of 1e-10
   const Vector still = Vector::Zero(q.size());
   const auto force_at = [&](double factor) {
     Vector f(q.size());

@@ -9,10 +9,15 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kMostTurn = 0.5;  // cosine
-constexpr double kSteep = 0.5;     // dlambda/ds above which a step is to a load factor: one solve less
+constexpr double kMinCosine = 0.5;  // least cosine of the angle between the tangents at both ends of a step
+constexpr double kSteep = 0.5;      // above this dlambda/ds, a step has a fixed load factor, which saves a linear solve
 
 PathPoint difference(const PathPoint& a, const PathPoint& b) { return {a.q - b.q, a.lambda - b.lambda}; }
+
+void reverse(PathPoint& tangent) {
+  tangent.q *= -1;
+  tangent.lambda *= -1;
+}
 
 }  // namespace
 
@@ -20,19 +25,19 @@ PathTracer::PathTracer(const LoadPath& path, EquilibriumSolver& solver) : solver
   const PathPoint start{path.start(), 0};
   auto response = solver.respond(start);
   if (!response)
-    throw RunError("the stiffness is singular at the start: something is not held, or has no stiffness",
+    throw RunError("the stiffness is singular at the start: some part is not supported, or has no stiffness",
                    Reason::critical_point);
   if (const double length = space_.norm(response->rate); length > 0) length_ = length;
-  place_ = {start, std::move(*response), {}, {}};
-  place_.tangent = unit_tangent(place_.response);
+  current_ = {start, std::move(*response), {}, {}};
+  current_.tangent = unit_tangent(current_.response);
 }
 
 double PathTracer::product(const PathPoint& a, const PathPoint& b) const {
   return space_.dot(a.q, b.q) / (length_ * length_) + a.lambda * b.lambda;
 }
 
-double PathTracer::along(const PathPoint& there) const {
-  return product(place_.tangent, difference(there, place_.point));
+double PathTracer::arc_length_to(const PathPoint& there) const {
+  return product(current_.tangent, difference(there, current_.point));
 }
 
 double PathTracer::distance(const PathPoint& a, const PathPoint& b) const {
@@ -48,18 +53,18 @@ PathPoint PathTracer::unit_tangent(const EquilibriumSolver::Response& response) 
   return t;
 }
 
-std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
+std::optional<PathTracer::PathState> PathTracer::advance_by(double ds) {
   constexpr double kNear = 1e-9;
-  const PathPoint& t = place_.tangent;
+  const PathPoint& t = current_.tangent;
   PathPlane plane{Vector(t.q / (length_ * length_)), t.lambda};
-  // What is left to lambda = 1, there without a sliver of a step after it.
-  const double left = t.lambda > 0 ? (1 - place_.point.lambda) / t.lambda : 2 * ds + 1;
+  // Arc length to lambda = 1. kNear avoids a tiny last step.
+  const double left = t.lambda > 0 ? (1 - current_.point.lambda) / t.lambda : 2 * ds + 1;
   if (left <= ds * (1 + kNear)) {
     ds = left;
     plane = {};
   }
-  Place next;
-  next.point = {place_.point.q + ds * t.q, place_.point.lambda + ds * t.lambda};
+  PathState next;
+  next.point = {current_.point.q + ds * t.q, current_.point.lambda + ds * t.lambda};
   if (left == ds) {
     next.point.lambda = 1;
   } else if (t.lambda > kSteep) {
@@ -67,67 +72,66 @@ std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
     next.point.lambda = std::round(1e12 * next.point.lambda) / 1e12;  // 0.25 rather than 0.25000000000000006
   }
   const PathPoint guess = next.point;
-  attempt_ = solver_.solve(place_.point, next.point, plane);
+  attempt_ = solver_.solve(current_.point, next.point, plane);
   if (!attempt_.found) return std::nullopt;
-  if (distance(next.point, guess) > ds) return refuse("Newton's corrections led far away");
-  auto response = solver_.respond(next.point);
-  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
-  next.response = std::move(*response);
-  next.tangent = unit_tangent(next.response);
-  next.attempt = attempt_;
+  if (distance(next.point, guess) > ds) return fail("Newton's corrections led far away");
+  if (!complete(next)) return std::nullopt;
   double turn = product(next.tangent, t);
   if (turn < 0) {
-    next.tangent.q *= -1;
-    next.tangent.lambda *= -1;
+    reverse(next.tangent);
     turn = -turn;
   }
-  if (turn < kMostTurn) return refuse("the path turns sharply");
-  return next.point.lambda > 1 && t.lambda > 0 ? back_to_one(std::move(next)) : next;
+  if (turn < kMinCosine) return fail("the path turns sharply");
+  return next.point.lambda > 1 && t.lambda > 0 ? corrected_to_full_load(std::move(next)) : next;
 }
 
-// From an equilibrium under more than all loads.
-std::optional<PathTracer::Place> PathTracer::back_to_one(Place past) {
-  PathPoint point{past.point.q + (1 - past.point.lambda) * past.response.rate, 1};
+// The equilibrium at lambda = 1, starting from `past` with lambda > 1.
+std::optional<PathTracer::PathState> PathTracer::corrected_to_full_load(PathState past) {
+  PathState next;
+  next.point = {past.point.q + (1 - past.point.lambda) * past.response.rate, 1};
   const auto first = attempt_;
-  attempt_ = solver_.solve(past.point, point, {});
+  attempt_ = solver_.solve(past.point, next.point, {});
   attempt_.iterations += first.iterations;
-  if (!attempt_.found) return std::nullopt;
-  auto response = solver_.respond(point);
-  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
-  const PathPoint tangent = unit_tangent(*response);
-  return Place{std::move(point), std::move(*response), tangent, attempt_};
+  if (!attempt_.found || !complete(next)) return std::nullopt;
+  return next;
 }
 
-std::optional<PathTracer::Place> PathTracer::aside(const Vector& shift) {
-  Place next;
-  next.point = {place_.point.q + shift, place_.point.lambda};
+std::optional<PathTracer::PathState> PathTracer::branch_at(const Vector& shift) {
+  PathState next;
+  next.point = {current_.point.q + shift, current_.point.lambda};
   const PathPoint guess = next.point;
-  attempt_ = solver_.solve(place_.point, next.point, {Vector(shift / space_.dot(shift, shift)), 0});
+  attempt_ = solver_.solve(current_.point, next.point, {Vector(shift / space_.dot(shift, shift)), 0});
   if (!attempt_.found) return std::nullopt;
-  if (distance(next.point, guess) > distance(guess)) return refuse("Newton's corrections led far away");
+  if (distance(next.point, guess) > distance(guess)) return fail("Newton's corrections led far away");
+  if (!complete(next)) return std::nullopt;
+  if (product(next.tangent, difference(next.point, current_.point)) < 0) reverse(next.tangent);
+  return next.point.lambda > 1 && next.tangent.lambda > 0 ? corrected_to_full_load(std::move(next)) : next;
+}
+
+// Sets response, tangent and attempt of `next`. False if K is singular there.
+bool PathTracer::complete(PathState& next) {
   auto response = solver_.respond(next.point);
-  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
+  if (!response) {
+    fail("the stiffness is singular, or cannot be evaluated");
+    return false;
+  }
   next.response = std::move(*response);
   next.tangent = unit_tangent(next.response);
   next.attempt = attempt_;
-  if (product(next.tangent, difference(next.point, place_.point)) < 0) {
-    next.tangent.q *= -1;
-    next.tangent.lambda *= -1;
-  }
-  return next.point.lambda > 1 && next.tangent.lambda > 0 ? back_to_one(std::move(next)) : next;
+  return true;
 }
 
-std::nullopt_t PathTracer::refuse(const char* why) {
+std::nullopt_t PathTracer::fail(const char* why) {
   attempt_.found = false;
   attempt_.failure_reason = why;
   return std::nullopt;
 }
 
-bool PathTracer::move_to(const PathPoint& elsewhere, const EquilibriumSolver::Attempt& attempt) {
-  auto response = solver_.respond(elsewhere);
+bool PathTracer::move_to(const PathPoint& point, const EquilibriumSolver::Attempt& attempt) {
+  auto response = solver_.respond(point);
   if (!response) return false;
-  place_ = {elsewhere, std::move(*response), {}, attempt};
-  place_.tangent = unit_tangent(place_.response);
+  current_ = {point, std::move(*response), {}, attempt};
+  current_.tangent = unit_tangent(current_.response);
   return true;
 }
 

@@ -1,12 +1,12 @@
-// A path of equilibria (q, lambda), followed by straight steps along its tangent and corrections on the plane
-// perpendicular to it (Riks 1979), so that it may turn: past limit points, along unstable equilibria.
+// Arc-length continuation along a path of equilibria (q, lambda): a straight step along the tangent, then corrections
+// in the plane perpendicular to it (Riks 1979), or at a fixed load factor where the path is steep. The path may pass
+// limit points and unstable equilibria.
 //
-// Lengths s along the path are of (q / |dq/dlambda at the start|, lambda), free of units: at the start, ds = sqrt(2)
-// dlambda. The last step ends at lambda = 1 exactly.
+// The arc length s is dimensionless: ds^2 = |dq|^2 / |dq/dlambda at the start|^2 + dlambda^2, so ds = sqrt(2) dlambda
+// at the start. The last step ends exactly at lambda = 1.
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "lib/statics/equilibrium.h"
 
@@ -14,53 +14,57 @@ namespace orthodyn {
 
 class PathTracer {
  public:
-  // An equilibrium, what K tells there, the unit tangent, and what led there.
-  struct Place {
+  // An equilibrium with its response, the unit tangent of the path, and the attempt that found it.
+  struct PathState {
     PathPoint point;
     EquilibriumSolver::Response response;
     PathPoint tangent;
     EquilibriumSolver::Attempt attempt = {};
   };
 
-  // At the start of the path, where lambda = 0. Both must outlive it. Throws RunError where K is singular there.
+  // Starts at lambda = 0. Both arguments must outlive this object. Throws RunError if K is singular at the start.
   PathTracer(const LoadPath& path, EquilibriumSolver& solver);
 
-  const Place& place() const { return place_; }
+  const PathState& current() const { return current_; }
 
-  // The next equilibrium, ds along the path; none where it was not found, or where the path turned by more than 60
-  // degrees on the way: a shorter step may help.
-  std::optional<Place> beyond(double ds);
+  // Finds the equilibrium at arc length ds > 0 from the current one. Empty if none is found, or if the path turns by
+  // more than 60 degrees; the step must then be shortened.
+  std::optional<PathState> advance_by(double ds);
 
-  // An equilibrium whose displacement from the present place has `shift`, m, along itself: on the path that crosses
-  // this one near here, if `shift` is along the null vector of K at the crossing. Its tangent leads away from here.
-  // Where that path rises beyond lambda = 1, its equilibrium at 1. None where it was not found or is far away.
-  std::optional<Place> aside(const Vector& shift);
+  // Finds an equilibrium whose displacement from the current one, projected on the direction of `shift`, is `shift`
+  // (m). If `shift` is parallel to the null vector of K at a nearby bifurcation, the equilibrium lies on the other
+  // branch. Its tangent points away from the current equilibrium. lambda is at most 1 on rising branches. Empty if none
+  // is found or if it is far away.
+  std::optional<PathState> branch_at(const Vector& shift);
 
-  // To an equilibrium found by beyond() or aside(); or to one on whatever branch, from where lambda rises.
-  void move_to(Place place) { place_ = std::move(place); }
-  bool move_to(const PathPoint& elsewhere, const EquilibriumSolver::Attempt& attempt);
+  // Makes an equilibrium of advance_by() or branch_at() the current one.
+  void move_to(PathState state) { current_ = std::move(state); }
+  // Makes an equilibrium of any branch the current one; the path continues with increasing lambda. False if K is
+  // singular there.
+  bool move_to(const PathPoint& point, const EquilibriumSolver::Attempt& attempt);
 
-  // How far `there` is from the present place: along its tangent, and altogether.
-  double along(const PathPoint& there) const;
-  double distance(const PathPoint& there) const { return distance(there, place_.point); }
+  // Distance (arc length) of `there` from the current equilibrium: along the tangent, and in total.
+  double arc_length_to(const PathPoint& there) const;
+  double distance(const PathPoint& there) const { return distance(there, current_.point); }
 
-  // |dq/dlambda| against that at the start.
-  double growth(const Place& place) const { return space_.norm(place.response.rate) / length_; }
+  // |dq/dlambda| divided by its value at the start.
+  double growth(const PathState& state) const { return space_.norm(state.response.rate) / length_; }
 
-  // The last call of the solver.
-  const EquilibriumSolver::Attempt& attempt() const { return attempt_; }
+  // The last attempt of the solver.
+  const EquilibriumSolver::Attempt& last_attempt() const { return attempt_; }
 
  private:
   double distance(const PathPoint& a, const PathPoint& b) const;
-  std::optional<Place> back_to_one(Place past);
-  std::nullopt_t refuse(const char* why);
+  std::optional<PathState> corrected_to_full_load(PathState past);
+  bool complete(PathState& next);
+  std::nullopt_t fail(const char* why);
   double product(const PathPoint& a, const PathPoint& b) const;
   PathPoint unit_tangent(const EquilibriumSolver::Response& response) const;
 
   EquilibriumSolver& solver_;
   VectorSpace space_;
-  double length_ = 1;  // m, of dq/dlambda at the start
-  Place place_;
+  double length_ = 1;  // |dq/dlambda| at the start, m
+  PathState current_;
   EquilibriumSolver::Attempt attempt_;
 };
 

@@ -1,4 +1,4 @@
-// What is left free of a block that is clamped at a few of its corners.
+// Free rigid motions of a block that is clamped at a few of its corners.
 #include "lib/analysis/rigid_freedom.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace {
 
 const Vec3 kSizes[] = {{1, 1, 1}, {2, 1.3, 0.7}, {1, 0.1, 3.3}, {0.011, 0.023, 0.0057}, {1.7, 0.9, 0.31}};
 
-// Clamped at corners, each given by which of its coordinates are those of the far side.
+// A block clamped at corners; each corner is given by the coordinates that lie on the far side.
 int freedom(const Vec3& size, const std::vector<Vec3>& corners) {
   std::string clamps;
   for (const Vec3& corner : corners)

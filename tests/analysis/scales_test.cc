@@ -1,4 +1,4 @@
-// The sizes that tolerances are relative to, of bodies whose motion is known beforehand.
+// Scales of bodies whose motion is known.
 #include "lib/analysis/scales.h"
 
 #include <fmt/format.h>
@@ -48,8 +48,8 @@ TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
   EXPECT_NEAR(scales_of(yaml).velocity, 3 * 3.0, 1e-12);
 }
 
-// Nearly one spring k = E A/L with the mass m of the four nodes at its end, of which some have more than others: v0
-// starts an amplitude of v0 sqrt(m/k).
+// Approximately a spring k = E A/L with the mass m of the four end nodes (of unequal mass): v0 starts an amplitude of
+// v0 sqrt(m/k).
 TEST(Scales, OfAHeldBodyThatIsStruckComeFromTheVibration) {
   const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
@@ -62,7 +62,7 @@ time: {end: 0.1}
   EXPECT_NEAR(scales_of(bar).position, expected, 0.02 * expected);
 }
 
-// The same spring: a blow of impulse J starts v0 = J/m, whatever its peak would do at rest.
+// The same spring: an impulse J starts v0 = J/m, independent of the static response to its peak.
 TEST(Scales, OfAHeldBodyUnderAShortLoadComeFromItsImpulse) {
   const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
@@ -79,11 +79,10 @@ time: {end: 0.1}
   EXPECT_NEAR(scales_of(longer).position, 2 * 1000 / k, 1e-3 * 1000 / k);
 }
 
-// Evenly spaced samples of the base's motion would all be its zeros.
+// Evenly spaced samples would all hit zeros of the base motion.
 TEST(Scales, SeeAMotionOfWholePeriods) {
-  const auto yaml = kValidScene +
-                    "motions: [{surface: x1, translation: [1e-9, 0, 0], "
-                    "factor: {type: sine, frequency: 2000}}]\n";
+  const auto yaml =
+      kValidScene + "motions: [{surface: x1, translation: [1e-9, 0, 0], factor: {type: sine, frequency: 2000}}]\n";
   EXPECT_NEAR(scales_of(yaml).position, 2e-9, 1e-11);
 }
 
@@ -104,9 +103,8 @@ time: {{end: 0.1}}
 }
 
 TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {
-  const auto yaml = kValidScene +
-                    "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], "
-                    "factor: {type: smooth_step, end: 0.1}}]\n";
+  const auto yaml =
+      kValidScene + "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], factor: {type: smooth_step, end: 0.1}}]\n";
   const Scales scales = scales_of(yaml);
   EXPECT_NEAR(scales.position, 2 * 5e-3, 1e-12);
   EXPECT_NEAR(scales.velocity, 3 * 5e-3 / 0.1 * 15 / 8, 1e-4);  // the step's largest rate, in its middle

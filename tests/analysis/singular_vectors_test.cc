@@ -1,4 +1,4 @@
-// Singular values and vectors of few columns: of matrices made from known ones.
+// Singular values and vectors of matrices with few columns, constructed from known ones.
 #include "lib/analysis/singular_vectors.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(SingularVectors, AreThoseThatTheMatrixWasMadeFrom) {
   }
 }
 
-// Of {{1, s}, {0, s}} the product is the determinant s, and the larger one is 1 to within s^2.
+// The singular values of {{1, s}, {0, s}}: their product is the determinant s, the larger is 1 to within s^2.
 TEST(SingularVectors, OfSmallColumnsHaveTheirDigits) {
   const double s = 1e-20;
   const auto values = ascending(right_singular_vectors(Eigen::MatrixXd{{1, s}, {0, s}}).values);

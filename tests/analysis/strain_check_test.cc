@@ -1,5 +1,5 @@
 // A bar of a fibre 100 times stiffer along x: by the formulas it kinks at -6.64 % and slides at +18.2 %.
-// Under a uniform traction its linear strain is traction / 100, and twice that is what counts.
+// Under a uniform traction its linear strain is traction / 100; the check takes twice that.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,9 +40,8 @@ TEST(StrainCheck, WarnsOfACompressionThatKinksTheFibre) {
   EXPECT_TRUE(warnings_of(bar(pulled_by(-3.30))).empty());
   const auto warnings = warnings_of(bar(pulled_by(-3.34)));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(
-      holds(warnings[0], "puts 10 of 10 elements along material axis 1 under the stress of a strain of -6.68 %"));
-  EXPECT_TRUE(holds(warnings[0], "beyond -6.64 %"));
+  EXPECT_TRUE(holds(warnings[0], "10 of 10 elements along material axis 1") && holds(warnings[0], "-6.68 %"));
+  EXPECT_TRUE(holds(warnings[0], "-6.64 %"));
   EXPECT_TRUE(holds(warnings[0], "kinks in the plane 1-"));
 }
 
@@ -50,7 +49,7 @@ TEST(StrainCheck, WarnsOfATensionThatSlidesTheLayers) {
   EXPECT_TRUE(warnings_of(bar(pulled_by(9.0))).empty());
   const auto warnings = warnings_of(bar(pulled_by(9.2)));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(holds(warnings[0], "under the stress of a strain of +18.4 %; beyond +18.2 %"));
+  EXPECT_TRUE(holds(warnings[0], "+18.4 %") && holds(warnings[0], "+18.2 %"));
 }
 
 TEST(StrainCheck, LooksAlongTheMaterialAxes) {
@@ -58,15 +57,14 @@ TEST(StrainCheck, LooksAlongTheMaterialAxes) {
   EXPECT_TRUE(warnings_of(bar(pulled_by(-0.05), across)).empty());  // E = 1 along x now; -10 %
 }
 
-// nu21 = 0.03: twice 160 % across the fibre go with -9.6 % along it, but with no stress along it.
+// nu21 = 0.03: twice 160 % strain across the fibre causes -9.6 % along it, but without stress along it.
 TEST(StrainCheck, TakesNoContractionThatGoesWithTensionForALoad) {
   EXPECT_TRUE(warnings_of(bar(pulled_by(1.6), ", axes: {first: [0, 1, 0], second: [1, 0, 0]}")).empty());
 }
 
 TEST(StrainCheck, TakesALoadAtThePeakOfItsFactor) {
   const std::string sine =
-      "loads: [{surface: x1, traction: [-33.4, 0, 0], factor: {type: sine, amplitude: 0.1, "
-      "frequency: 1}}]\n";
+      "loads: [{surface: x1, traction: [-33.4, 0, 0], factor: {type: sine, amplitude: 0.1, frequency: 1}}]\n";
   EXPECT_EQ(warnings_of(bar(sine)).size(), 1u);
 }
 
@@ -82,8 +80,8 @@ TEST(StrainCheck, WarnsOfAnInitialDeformationBeyondTheLimit) {
   EXPECT_TRUE(deformed("[[0.94, 0, 0], [0, 1.18, 0], [0, 0, 1.18]]").empty());
   const auto warnings = deformed("[[0, -1.3, 0], [0.9, 0, 0], [0, 0, 1.3]]");  // turned, too
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(holds(warnings[0], "the initial deformation puts 10 of 10"));
-  EXPECT_TRUE(holds(warnings[0], "a strain of -10 %"));
+  EXPECT_TRUE(holds(warnings[0], "the initial deformation strains 10 of 10"));
+  EXPECT_TRUE(holds(warnings[0], " of -10 %"));
 }
 
 TEST(StrainCheck, DoesNotTakeARotationForAStrain) {

@@ -1,5 +1,5 @@
-// The limits of a corotational material along its axes against the acoustic tensor: the smallest
-// eigenvalue over all directions of travel changes its sign there, and not before.
+// Strain limits against the acoustic tensor: at the limit, and not before, its smallest eigenvalue over all directions
+// changes sign.
 #include "lib/analysis/strain_limits.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace orthodyn::strain_limits_test {
 namespace {
 
-// Stretched by e along `axis` under stress along it alone.
+// Deformation gradient with strain e along `axis` under uniaxial stress.
 Mat3 uniaxial(const OrthotropicStiffness& C, int axis, double e) {
   const Mat3 S = voigt(C).topLeftCorner<3, 3>().inverse();
   return Mat3::Identity() + Mat3(Vec3(e / S(axis, axis) * S.col(axis)).asDiagonal());
@@ -28,8 +28,7 @@ double softest_wave(const Mat9& H, const Vec3& n) {
   return symmetric_eigenvalues(A)[0];
 }
 
-// The smallest eigenvalue of the acoustic tensor over directions: a half sphere of samples, the axes among
-// them.
+// Smallest eigenvalue of the acoustic tensor over directions sampled on a half sphere, axes included.
 double smallest_acoustic_eigenvalue(const OrthotropicStiffness& C, const Mat3& F) {
   const Mat9 H =
       in_space(CorotationalLaw(C).tangent(F - Mat3::Identity(), Mat3::Identity(), TangentKind::exact, 0, nullptr));
@@ -54,7 +53,7 @@ std::vector<OrthotropicStiffness> materials() {
   return all;
 }
 
-// A flat section ends the path from rest, before which nothing else must happen.
+// The path from rest ends where the section is flat; no other limit may come before.
 bool is_elliptic_until(const OrthotropicStiffness& C, int axis, double end) {
   for (const double part : {0.3, 0.7, 0.9, 0.99, 0.9999})
     if (smallest_acoustic_eigenvalue(C, uniaxial(C, axis, part * end)) < 0) return false;
@@ -101,7 +100,7 @@ TEST(StrainLimits, OfAFibreGrowNarrowWithItsStiffness) {
   }
 }
 
-// nu12 = 0.3 sqrt(r); a large shear modulus leaves nothing else to happen first.
+// nu12 = 0.3 sqrt(r); with a large shear modulus no other limit comes first.
 TEST(StrainLimits, IncludeTheStrainThatLeavesASectionWithoutThickness) {
   auto c = stable_family({100, 1, 1}, 0.3);
   c.g12 = c.g13 = 1000;
@@ -112,7 +111,7 @@ TEST(StrainLimits, IncludeTheStrainThatLeavesASectionWithoutThickness) {
   EXPECT_EQ(describe(*limits.tension, 0).substr(0, 14), "is flat along ");
 }
 
-// The same fibre as 21 constants, turned about itself; found by search.
+// The same fibre as 21 constants, rotated about its axis; the limits are found numerically.
 TEST(StrainLimits, OfAFullCAreThoseOfTheOrthotropicOneThatItDescribes) {
   const auto nine = strain_limits(fibre(100));
   for (const double angle : {0.0, 0.4}) {

@@ -1,8 +1,7 @@
-#include "lib/config/auto_or.h"
-
 #include <gtest/gtest.h>
 
 #include "lib/config/spec.h"
+#include "lib/config/values.h"
 #include "tests/config/messages.h"
 
 namespace orthodyn::auto_or_test {

@@ -1,4 +1,4 @@
-// What is not accepted as input, and the words with which it is refused.
+// Invalid YAML input, and the messages with which it is refused.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,7 +34,7 @@ TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
   EXPECT_TRUE(holds(message, "not YAML"));
 }
 
-// yaml-cpp blames the next line, the end of the braces, or nobody.
+// yaml-cpp itself reports the next line, the closing brace, or no error.
 TEST(ConfigRefuses, AColonWithoutASpaceBehindIt) {
   EXPECT_EQ(refusal_of("mesh:\n  size:[1, 2]\n  cells: [1, 1]\n"), "a.yaml:2:3: not YAML: put a space after 'size:'");
   EXPECT_EQ(refusal_of("mesh: {type: box, size:[1, 2], a: 1}\n"), "a.yaml:1:19: not YAML: put a space after 'size:'");
@@ -55,17 +55,17 @@ TEST(ConfigRefuses, ALineThatIsIndentedBelowAValue) {
   EXPECT_TRUE(holds(refusal_of("mesh:\n\tsize: 1\n"), "indent with spaces, not tabs"));
 }
 
-// yaml-cpp blames the line behind it.
+// yaml-cpp itself reports a line after the bracket.
 TEST(ConfigRefuses, ABracketThatNothingCloses) {
-  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1}\nd: [3]\n"), "a.yaml:2:4: not YAML: nothing closes this '['");
-  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1]\nd: 3\n"), "a.yaml:2:5: not YAML: nothing closes this '{'");
+  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1}\nd: [3]\n"), "a.yaml:2:4: not YAML: this '[' is not closed");
+  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1]\nd: 3\n"), "a.yaml:2:5: not YAML: this '{' is not closed");
   EXPECT_EQ(refusal_of("a: x[0  # [\nb: '['\nc: \"\\\"[\"\nd:\n  - [1, it's\ne: 3\n"),
-            "a.yaml:5:5: not YAML: nothing closes this '['");
+            "a.yaml:5:5: not YAML: this '[' is not closed");
 }
 
 TEST(ConfigRefuses, NoBracketWhereAnotherThingIsWrong) {
-  EXPECT_FALSE(holds(refusal_of("a: [1,\n  {b: 1}, 2]\nc: *none\n"), "nothing closes"));
-  EXPECT_FALSE(holds(refusal_of("c: *none\na: [1\n"), "nothing closes"));
+  EXPECT_FALSE(holds(refusal_of("a: [1,\n  {b: 1}, 2]\nc: *none\n"), "is not closed"));
+  EXPECT_FALSE(holds(refusal_of("c: *none\na: [1\n"), "is not closed"));
 }
 
 TEST(ConfigRefuses, SeveralDocuments) {
@@ -87,8 +87,7 @@ TEST(ConfigRefuses, DeepNestingBeforeItIsBuilt) {
 }
 
 TEST(ConfigRefuses, WhatIsNotUtf8) {
-  EXPECT_EQ(refusal_of("a: 1\nTr\xE4ger: 2\n"),
-            "a.yaml:2:1: the byte 0xE4 in it is not UTF-8; save the file in this encoding");
+  EXPECT_TRUE(starts(refusal_of("a: 1\nTr\xE4ger: 2\n"), "a.yaml:2:1: the byte 0xE4 is not UTF-8"));
   EXPECT_TRUE(starts(refusal_of("a: [1, \"\xFC\"]\n"), "a.yaml:1:8: the byte 0xFC"));
   EXPECT_EQ(refusal_of("a: 1  # f\xFCr\n"), "accepted");
 }

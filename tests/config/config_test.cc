@@ -1,4 +1,4 @@
-// Reading a document: places, scalars, default values and the way back to YAML.
+// Reading a document: places (file:line), scalars, default values, and writing it back as YAML.
 #include "lib/config/config.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Formulas are evaluated by several threads at once.
+// Formulas can be evaluated by several threads at once.
 #include "lib/config/formula.h"
 
 #include <gtest/gtest.h>

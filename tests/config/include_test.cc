@@ -1,4 +1,4 @@
-// Sections that take their keys from other files.
+// Sections that include keys from other files.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -87,7 +87,7 @@ TEST_F(Include, AFileThatIncludesItselfIsRefused) {
 
 TEST_F(Include, AListIsNoSection) {
   write("list.yaml", "[1, 2]\n");
-  EXPECT_TRUE(holds(refusal([&] { read("include: list.yaml\n"); }), "holds no section of keys"));
+  EXPECT_TRUE(holds(refusal([&] { read("include: list.yaml\n"); }), "is not a section of keys"));
 }
 
 TEST_F(Include, AnErrorOfSyntaxNamesTheIncludedFile) {
@@ -96,7 +96,7 @@ TEST_F(Include, AnErrorOfSyntaxNamesTheIncludedFile) {
 }
 
 TEST_F(Include, AnAliasedSectionIsRefused) {
-  EXPECT_TRUE(holds(refusal([&] { read("a: &x {include: parts/wood.yaml}\nb: *x\n"); }), "by an alias"));
+  EXPECT_TRUE(holds(refusal([&] { read("a: &x {include: parts/wood.yaml}\nb: *x\n"); }), "through an alias"));
 }
 
 TEST_F(Include, TagsAreRefusedWithTheRemedy) {

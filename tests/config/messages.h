@@ -1,4 +1,4 @@
-// What an action refuses, for tests of messages.
+// For tests of messages: the error that an action throws, and searches in its text.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// --set PATH=VALUE: changes of the document from the command line.
+// --set PATH=VALUE: changes the document from the command line.
 #include <gtest/gtest.h>
 
 #include "lib/config/config.h"
@@ -88,13 +88,13 @@ TEST(Override, OfAnAliasedValueIsRefusedRatherThanChangedInTwoPlaces) {
   EXPECT_TRUE(holds(message, "--set b.v=2: 'b' is used in several places through an alias"));
 }
 
-// What lacks something that a new entry needs may be a slip in the name of one that is there.
+// If an override creates an entry that lacks a required key, its name may be a misspelling of an existing one.
 TEST(Override, ANewEntryThatIsRefusedNamesTheOneWithANearName) {
   Config config = Config::from_text("materials: {spruce: {type: a}, oak: {type: a}}", "a.yaml");
   config.override_with("materials.spuce.young=1e9");
   config.override_with("materials.teflon.young=1e9");
   const auto said = [&](const char* name) { return refusal([&] { config.at("materials").at(name).fail("no type"); }); };
-  EXPECT_TRUE(holds(said("spuce"), "no type; 'spuce' is new here; did you mean 'spruce'?"));
+  EXPECT_TRUE(holds(said("spuce"), "no type; 'spuce' is a new key; did you mean 'spruce'?"));
   EXPECT_TRUE(holds(refusal([&] { config.resolving().at("materials").at("spuce").fail("no type"); }), "'spruce'"));
   for (const char* name : {"teflon", "spruce"}) EXPECT_FALSE(holds(said(name), "did you mean")) << name;
 }
@@ -113,7 +113,7 @@ TEST(Override, OfAnIndexBeyondTheListIsRefused) {
 }
 
 TEST(Override, BelowAValueIsRefused) {
-  EXPECT_TRUE(holds(refusal_of("loads.0.name.x=1"), "there is nothing below 'loads.0.name', which is a value"));
+  EXPECT_TRUE(holds(refusal_of("loads.0.name.x=1"), "'loads.0.name' is a value"));
 }
 
 TEST(Override, WithAnEmptyStepIsRefused) {

@@ -1,4 +1,4 @@
-// Things chosen by `type`.
+// The registry: objects chosen by the key `type`.
 #include "lib/config/registry.h"
 
 #include <gtest/gtest.h>
@@ -34,6 +34,7 @@ struct Disc : Shape {
 
 const bool square = Registry<Shape>::add<Square>("square", "Four equal sides.");
 const bool disc = Registry<Shape>::add<Disc>("disc", "Round.");
+const bool circle = Registry<Shape>::rename("circle", "disc");
 
 Config text(const std::string& yaml) { return Config::from_text(yaml, "a.yaml"); }
 
@@ -85,6 +86,14 @@ TEST(Registry, TheDefaultOfAChosenTypeIsFilledIn) {
   const Config config = text("{type: disc}").resolving();
   Registry<Shape>::read(config);
   EXPECT_EQ(text(config.dump()).at("radius").number(), 1);
+}
+
+TEST(Registry, AFormerNameIsReadAsTheNewOneWithAWarning) {
+  const Config config = text("{type: circle, radius: 10}").resolving();
+  EXPECT_EQ(Registry<Shape>::read(config)->area(), 314);
+  ASSERT_EQ(config.warnings().size(), 1u);
+  EXPECT_TRUE(starts(config.warnings()[0], "a.yaml:1:8: type: 'circle' is now called 'disc'"));
+  EXPECT_EQ(text(config.dump()).at("type").text(), "disc");
 }
 
 TEST(Registry, AMemberIsReadThroughTheRegistry) {

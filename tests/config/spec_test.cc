@@ -1,4 +1,4 @@
-// Sections read by their declared keys: defaults, requirements, conditions and unknown keys.
+// Sections with declared keys: defaults, required keys, conditions and unknown keys.
 #include "lib/config/spec.h"
 
 #include <gtest/gtest.h>
@@ -146,7 +146,7 @@ TEST(Spec, TheOriginIsThePlaceOfTheSection) {
 
 TEST(Spec, KeysAreDescribedWithTypeUnitRangeAndDefault) {
   const auto& keys = Solver::spec().keys();
-  EXPECT_EQ(type_text(keys[0].shape), "number");
+  EXPECT_EQ(type_text(keys[0].schema), "number");
   EXPECT_EQ(range_text(keys[0].range), "in (0, 1)");
   EXPECT_EQ(keys[0].fallback, "0.1");
   EXPECT_EQ(keys[0].sentence, "Tolerance.");
@@ -186,6 +186,28 @@ struct Journey {
   }
 };
 
+struct Renamed {
+  double metric = 1;
+  static const Spec<Renamed>& spec() {
+    static const auto s = Spec<Renamed>().key("metric", &Renamed::metric, "A number.").rename("figure", "metric");
+    return s;
+  }
+};
+
+TEST(Spec, AFormerKeyIsReadAsTheNewOneWithAWarning) {
+  const Config config = Config::from_text("figure: 3", "a.yaml").resolving();
+  EXPECT_EQ(Renamed::spec().read(config).metric, 3);
+  ASSERT_EQ(config.warnings().size(), 1u);
+  EXPECT_TRUE(starts(config.warnings()[0], "a.yaml:1:9: figure: is now called 'metric'")) << config.warnings()[0];
+  EXPECT_EQ(Config::from_text(config.dump()).keys(), std::vector<std::string>{"metric"});
+}
+
+TEST(Spec, AFormerKeyBesideTheNewOneIsRefused) {
+  const std::string message =
+      refusal([] { Renamed::spec().read(Config::from_text("{figure: 3, metric: 2}", "a.yaml")); });
+  EXPECT_TRUE(holds(message, "'metric'")) << message;
+}
+
 TEST(Spec, AKeyThatMeansSomethingWithAnotherAloneIsNeitherTakenNorFilledInElsewhere) {
   const Config car = Config::from_text("by: car").resolving(), train = Config::from_text("by: train").resolving();
   Journey::spec().read(car);
@@ -194,7 +216,7 @@ TEST(Spec, AKeyThatMeansSomethingWithAnotherAloneIsNeitherTakenNorFilledInElsewh
   EXPECT_FALSE(train.has("fuel"));
   EXPECT_EQ(Journey::spec().read(Config::from_text("{by: car, fuel: 3}")).fuel, 3);
   const std::string message = refusal([] { Journey::spec().read(Config::from_text("{fuel: 3}", "a.yaml")); });
-  EXPECT_TRUE(starts(message, "a.yaml:1:8: fuel: has a meaning only with by: car, found by: train")) << message;
+  EXPECT_TRUE(starts(message, "a.yaml:1:8: fuel: applies only with by: car, found by: train")) << message;
 }
 
 }  // namespace

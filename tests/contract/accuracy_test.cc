@@ -57,8 +57,8 @@ TEST_P(Accuracy, BetweenStepsFallsWithTheTolerance) {
   for (const double fraction : {0.3, 0.7}) expect_orders(damped_oscillator(), GetParam(), fraction);
 }
 
-// The polynomial between the ends of a step is no worse than they are, also where the step is long against fast
-// vibrations that have died out. Methods that say so step to their outputs instead.
+// Dense output is as accurate as the ends of the step, also for steps much longer than damped fast vibrations. Methods
+// without dense output step to their output times.
 TEST_P(Accuracy, BetweenLongStepsIsThatOfTheSteps) {
   if (!tested(GetParam().integrator).stiff) GTEST_SKIP() << "not for stiff models";
   const auto model = stiff_pair();
@@ -77,7 +77,7 @@ TEST_P(Accuracy, OfAnUnsymmetricModelFallsWithTheTolerance) {
   expect_orders(CirculatoryModel(), GetParam());
 }
 
-// A stiff component must not be followed by the step: 10^6 times stiffer costs no more than twice the
+// The step size does not follow a stiff component: 10^6 times the stiffness costs at most twice the
 // steps.
 TEST_P(Accuracy, OfTheStiffPairCostsNoMoreThanThatOfOneOscillator) {
   if (!tested(GetParam().integrator).stiff) GTEST_SKIP() << "not for stiff models";
@@ -91,8 +91,8 @@ TEST_P(Accuracy, OfTheStiffPairCostsNoMoreThanThatOfOneOscillator) {
   EXPECT_LE(steps(stiff), 2 * steps(slow));
 }
 
-// A method of order p needs rtol^(-1/(p+1)) steps, whichever scale decides, and refuses few of them: an estimator
-// of another order, or one that sees what is not there, shows here.
+// A method of order p needs rtol^(-1/(p+1)) steps and rejects few, whichever scale controls the error. Detects error
+// estimators of a wrong order and spurious errors.
 TEST_P(Accuracy, CostsStepsAsTheOrderSays) {
   const auto& method = tested(GetParam().integrator);
   if (!method.has_one_estimator) GTEST_SKIP() << "varies its order, or estimates the error of another one";
@@ -113,8 +113,8 @@ TEST_P(Accuracy, CostsStepsAsTheOrderSays) {
   }
 }
 
-// What the linear solver is must not show in the result. `tipped`: the share of the steps and iterations
-// that may differ, and of rtol by which the result may, where round-off can tip a decision.
+// The result does not depend on the linear solver. `tipped`: allowed relative difference of the numbers of steps and
+// iterations, and of the result in units of rtol, where round-off can change a decision.
 struct Tipped {
   double counts = 0, result = 1e-3;
 };
@@ -149,12 +149,12 @@ TEST(LinearSolvers, AllTakeTheSameStepsOnALinearModel) {
   for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(chain(false), {1e-5, order});
 }
 
-// Its stiff part is damped to nothing: what is left of it is round-off, which can tip Newton's last iteration.
+// The damped stiff part is only round-off, which can decide Newton's last iteration.
 TEST(LinearSolvers, AllTakeNearlyTheSameStepsOnAStiffModel) {
   for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(stiff_pair(), {1e-5, order}, {0.1, 1});
 }
 
-// Its solutions are as good as Newton's method needs them.
+// An iterative solver is only as accurate as Newton's method requires.
 TEST(LinearSolvers, AnIterativeOneCostsNeitherAccuracyNorSteps) {
   for (const auto& pair : all_pairs()) {
     if (pair.solver != "petsc") continue;

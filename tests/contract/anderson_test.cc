@@ -1,4 +1,4 @@
-// Anderson's acceleration on linear iterations.
+// Anderson acceleration of linear iterations.
 #include "integrators/native/anderson.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace orthodyn::anderson_test {
 namespace {
 
-// What is left of ones after so many iterations x <- x + g(x) with g(x) = -A x.
+// Norm of x after the given number of iterations x <- x + g(x), g(x) = -A x, from a vector of ones.
 double left_after(int iterations, const Eigen::MatrixXd& A) {
   Anderson anderson(A.rows(), static_cast<int>(A.rows()));
   Vector x = Vector::Ones(A.rows());

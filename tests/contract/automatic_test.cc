@@ -1,4 +1,4 @@
-// The integrator that chooses: says what and why, does what the chosen one does.
+// The integrator `auto`: reports its choice and reasons, and gives the same result as the chosen one.
 #include <fmt/format.h>
 
 #include <set>
@@ -20,7 +20,7 @@ std::map<std::string, std::string> decisions(const Integrator& integrator) {
   return {all.begin(), all.end()};
 }
 
-// What the estimate of the model's cost says, of which cost_estimate_test.cc tests the thresholds.
+// Choice by estimated cost; the thresholds are tested in cost_estimate_test.cc.
 MethodChoice expected_choice(const SmallModel& model, double rtol) {
   const Task task{[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50};
   ErrorControl control;
@@ -44,7 +44,7 @@ TEST(Automatic, TakesTheMethodOfItsEstimate) {
       EXPECT_EQ(said.contains("modes"), expected.modes.has_value());
       methods.insert(expected.method);
     }
-  EXPECT_GE(methods.size(), 2u);  // the models are such that the choice matters
+  EXPECT_GE(methods.size(), 2u);  // the choice affects the result
 }
 
 TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
@@ -64,7 +64,7 @@ TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
     }
 }
 
-// Two masses between springs, for many periods.
+// Two masses between springs over many periods.
 LinearModel two_masses(const std::vector<std::array<double, 2>>& factor = {}) {
   const Matrix K = (Matrix(2, 2) << 6, -2, -2, 4).finished(), M = (Matrix(2, 2) << 2, 0, 0, 1).finished();
   const Vector load = factor.empty() ? Vector() : Vector::Unit(2, 1);
@@ -83,7 +83,7 @@ TEST(Automatic, TakesTheModesOfALinearModelOverManyPeriods) {
   EXPECT_FALSE(decisions(*make(nonlinear, "type: auto, rtol: 1e-6")).contains("modes"));
 }
 
-// A recorded choice is made anew where the model has no modes any more, and kept where it has.
+// A recorded choice of modes is kept if the model still has modes, otherwise repeated.
 TEST(Automatic, ChoosesAnewWhereRecordedModesServeNoLonger) {
   EXPECT_NE(decisions(*make(pendulum(), "type: auto, method: modal, modes: 2")).at("method"), "modal");
   EXPECT_EQ(decisions(*make(two_masses(), "type: auto, method: modal, modes: 2")).at("modes"), "2");
@@ -95,7 +95,7 @@ TEST(Automatic, TakesNoModesWithinFewerStepsThanTheyTake) {
   EXPECT_NE(decisions(*make(many_kinks, "type: auto, rtol: 1e-6, max_steps: 3")).at("method"), "modal");
 }
 
-// A model that calls itself linear and forgets a damping that its force has.
+// A model declared linear whose tangent omits a damping in its force.
 class Forgetful : public SmallModel {
  public:
   Forgetful() : SmallModel(scalar(1)) { traits_.linear = true; }

@@ -38,7 +38,7 @@ const State& reference() {
   return state;
 }
 
-// Relative to the largest displacement.
+// Error relative to the largest displacement.
 double error_of(const std::string& options) {
   const Vector& q = reference().q;
   return (end_of(options).q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
@@ -62,7 +62,7 @@ TEST_P(SmallBeam, EndsWhereTheReferenceDoes) {
   }
 }
 
-// The reference is one of them: two of another kind agree with it.
+// The reference is computed by one of the integrators; two of other families agree with it.
 TEST(SmallBeamReference, IsThatOfTwoOtherMethods) {
   EXPECT_LE(error_of("type: cvode_bdf, rtol: 1e-8, max_order: 5"), 1e-5);
   EXPECT_LE(error_of("type: ida_bdf, rtol: 1e-8, max_order: 5"), 1e-5);

@@ -1,4 +1,4 @@
-// What every integrator promises besides accuracy: stops, failures, statistics, refusals.
+// Common behaviour of all integrators besides accuracy: stops, failures, statistics, refusals.
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -14,7 +14,7 @@ class Contract : public testing::TestWithParam<Pair> {
   std::unique_ptr<Integrator> make(const SmallModel& model, const Options& options = {}) const {
     return make_integrator(GetParam(), model, options);
   }
-  // The RunError in which the run ends.
+  // The RunError that ends the run.
   RunError error(const SmallModel& model, const Options& options = {}) const {
     const auto integrator = make(model, options);
     try {
@@ -81,7 +81,7 @@ TEST_P(Contract, ARestartAtABreakpointGoesOnFromTheGivenStateAndKeepsCounting) {
   });
 }
 
-// A model that rests until its load sets in must not have lost the ability to move.
+// A model at rest starts to move when its load sets in.
 TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
   const LinearModel model({.mass = scalar(1),
                            .stiffness = scalar(9),
@@ -94,15 +94,15 @@ TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
   EXPECT_LE(distance(last, model.exact(1002), model.scales()), 1e-2);
 }
 
-// At rest under 200 sin(W t), W = 20 pi/s: the load is the same at the start, at the end, and at any part of the span
-// that is made of whole periods. x = 200/(9 - W^2) (sin W t - W/3 sin 3 t).
+// Starts at rest under 200 sin(W t), W = 20 pi/s. The load is equal at the start, at the end and after whole periods,
+// so that coarse samples see no change. x = 200/(9 - W^2) (sin W t - W/3 sin 3 t).
 TEST_P(Contract, APeriodicLoadIsNotTakenForNone) {
   const LinearModel still({.mass = scalar(1), .stiffness = scalar(9), .load = Vector::Zero(1), .end = 0.5});
   constexpr double W = 20 * std::numbers::pi;
   const Disturbed<LinearModel> model(still, [](long, double t, VectorRef f) { f[0] += 200 * std::sin(W * t); });
   const State last = integrate(model, *make(model, {.rtol = 1e-4}));
   const double exact = -200 / (9 - W * W) * W / 3 * std::sin(1.5);
-  EXPECT_NEAR(last.q[0], exact, 0.05 * exact);  // some are made to take steps of 0.01 s, a tenth of a period
+  EXPECT_NEAR(last.q[0], exact, 0.05 * exact);  // fixed-step methods take steps of 0.01 s, a tenth of a period
 }
 
 TEST_P(Contract, TheSameRunTwiceIsTheSameToTheLastBit) {
@@ -235,7 +235,7 @@ TEST_P(Contract, AFailureHasAReason) {
   EXPECT_EQ(error(nowhere).reason(), Reason::force);
 }
 
-// Damped, released from `amplitude`.
+// A damped oscillator released from `amplitude`.
 LinearModel released_from(double amplitude) {
   return LinearModel(
       {.mass = scalar(2), .stiffness = scalar(18), .beta = 0.4 / 3, .start = Vector::Constant(1, amplitude), .end = 4});
@@ -254,7 +254,7 @@ TEST_P(Contract, AMotionAMillionTimesLargerWithItsScalesTakesTheSameSteps) {
   EXPECT_EQ(steps(1e-6), steps(1));
 }
 
-// A scale a thousand times smaller asks for an error a thousand times smaller.
+// A thousand times smaller scale requires a thousand times smaller error.
 TEST_P(Contract, ASmallerScaleOfEitherKindCostsSteps) {
   if (!has_key(GetParam().integrator, "position_scale")) GTEST_SKIP() << "has no scales";
   if (tested(GetParam().integrator).exact_if_linear) GTEST_SKIP() << "has no error here";
@@ -265,7 +265,7 @@ TEST_P(Contract, ASmallerScaleOfEitherKindCostsSteps) {
     integrate(model, *integrator);
     return integrator->statistics().steps;
   };
-  // Three decades of rtol cost a method of order k 10^(3/(k+1)) times the steps, that of order two ten.
+  // Three decades of rtol cost a method of order k a factor of 10^(3/(k+1)) in steps; ten for order two.
   const double k = variant(GetParam().integrator, 2).order;
   const long usual = steps(1, 3);
   const auto least = static_cast<long>(0.5 * std::pow(10, 3 / (k + 1)) * static_cast<double>(usual));
@@ -277,7 +277,7 @@ bool looks_at_definiteness(const std::string& solver) {
   return solver_registry().contains(solver) && !solver_registry().at(solver).takes_general;
 }
 
-// The column's sideways stiffness is negative: as it comes to rest the steps grow until the Newton
+// The column's transverse stiffness is negative: as it comes to rest, the steps grow until the Newton
 // matrix is indefinite.
 TEST_P(Contract, AnIndefiniteTangentFallsBackToGaussNewtonWhichIsCounted) {
   if (!solves_systems(GetParam().integrator)) GTEST_SKIP() << "solves no systems";

@@ -1,4 +1,4 @@
-// The leapfrog's own laws: its critical step, what it keeps, what it refuses.
+// Properties of the leapfrog scheme: critical step, invariants, refusals.
 #include <numbers>
 
 #include "integrators/critical_step.h"
@@ -43,7 +43,7 @@ TEST(CriticalStep, OfAChainIsTwoOverItsHighestFrequency) {
   }
 }
 
-// The residual is added to the Ritz value: never above, hardly below.
+// The bound adds the residual to the Ritz value: the step is never above the critical one, and hardly below.
 TEST(CriticalStep, OfALongChainIsJustBelowTwoOverItsHighestFrequency) {
   const double exact = 2 / highest_frequency(400), found = critical_step(undamped_chain(400));
   EXPECT_LE(found, exact * (1 + 1e-12));
@@ -56,8 +56,8 @@ TEST(CriticalStep, WithStiffnessDampingFollowsFromTheHighestFrequency) {
   EXPECT_NEAR(critical_step(undamped_chain(8, 0.1)), exact, 1e-12);
 }
 
-// The scheme as its formulas stand, on q'' = -omega^2 q - 2 xi omega q', omega = 1: the factor by which the
-// largest component grows in a thousand steps.
+// Growth of the largest component in a thousand steps of the scheme's formulas, on q'' = -omega^2 q - 2 xi omega q'
+// with omega = 1.
 double growth(double h, double xi) {
   double q = 1, v = 0, a = -1;
   for (int k = 0; k < 1000; ++k) {
@@ -77,7 +77,7 @@ TEST(CriticalStep, DividesDecayFromGrowth) {
   }
 }
 
-// The leapfrog keeps v^2 + omega^2 (1 - (h omega)^2 / 4) q^2, to round-off.
+// The leapfrog conserves v^2 + omega^2 (1 - (h omega)^2 / 4) q^2 to round-off.
 TEST(CentralDifferences, KeepTheirOwnEnergyOverAHundredThousandSteps) {
   const double omega = 3, h = 0.95 * 2 / omega;
   const auto model = oscillator(omega, 0, 1e5 * h);
@@ -87,7 +87,7 @@ TEST(CentralDifferences, KeepTheirOwnEnergyOverAHundredThousandSteps) {
   double most = 0;
   const auto integrator = leapfrog(model, fmt::format(", step: {}", h));
   integrate(model, *integrator, [&](const StepInfo& info, const Integrator& i) {
-    if (info.t == model.end()) return;  // a shorter one may come last
+    if (info.t == model.end()) return;  // the last step may be shorter
     State state;
     i.interpolate(info.t, state);
     most = std::max(most, std::abs(kept(state) / kept(model.initial()) - 1));
@@ -149,8 +149,8 @@ TEST(CentralDifferences, TakeEvenStepsOfTheirOwnChoiceUpToAStop) {
   EXPECT_EQ(integrator->statistics().steps, 3);
 }
 
-// A slow motion x that makes a fast one y stiffer: U = (w^2 x^2 + (1 + 3 x^2) y^2) / 2. From x = 0 to 1 the fast
-// frequency doubles.
+// A slow motion x that stiffens a fast one y: U = (w^2 x^2 + (1 + 3 x^2) y^2) / 2. The fast frequency doubles from x =
+// 0 to 1.
 class StiffeningPair : public SmallModel {
  public:
   static constexpr double kSlow = 2e-4;
@@ -173,7 +173,7 @@ class StiffeningPair : public SmallModel {
     K << kSlow * kSlow + 3 * y * y, 6 * x * y, 6 * x * y, 1 + 3 * x * x;
     return told_ * K;
   }
-  double told_;  // share of the stiffness that the model tells
+  double told_;  // fraction of the stiffness in the tangent
 };
 
 TEST(CentralDifferences, RenewTheirStepAsTheStiffnessGrows) {
@@ -210,7 +210,7 @@ TEST(CentralDifferences, EndWhereTheCriticalStepFallsBelowAFixedOne) {
   EXPECT_NE(message.find("below integrator.step, 1.9 s"), std::string::npos) << message;
 }
 
-// Its tangent tells a hundredth of the stiffness: the step is far too long, and nobody knows.
+// The tangent has a hundredth of the stiffness: the step is far too long without being detected in advance.
 TEST(CentralDifferences, EndWithARemedyWhereTheMotionGrowsWithoutBound) {
   const RunError error = failure(StiffeningPair(0.01), "");
   const std::string message = error.what();
@@ -224,7 +224,7 @@ class PairOfOneMetre : public StiffeningPair {
   Geometry geometry() const override { return {{Vec3::Zero(), Vec3::UnitX()}, {}}; }
 };
 
-// Long before numbers overflow.
+// Detected long before overflow.
 TEST(CentralDifferences, EndWhereAForceWouldMoveANodeByTheWholeBodyInAStep) {
   const PairOfOneMetre model;
   const auto integrator = leapfrog(model);
@@ -254,7 +254,7 @@ TEST(CentralDifferences, RefuseASafetyBesideAFixedStep) {
   }
 }
 
-// A unit mass on a spring of 1 N/m, thrown at a wall at x = -1/2 that is a hundred times as stiff.
+// A unit mass on a spring of 1 N/m that hits a wall at x = -1/2, a hundred times stiffer.
 class Wall : public SmallModel {
  public:
   static constexpr double kWall = 100;

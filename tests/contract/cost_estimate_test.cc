@@ -1,5 +1,5 @@
-// The choice of `auto`: each threshold from both sides, and the safety of central differences from the errors that it
-// stands for.
+// The choice of `auto`: each threshold from both sides, and the safety factor of central differences derived from the
+// allowed errors.
 #include "integrators/automatic/cost_estimate.h"
 
 #include <gtest/gtest.h>
@@ -18,13 +18,13 @@ std::string method(const CostEstimate& cost, double rtol, double most = kInfinit
   return choose_method(cost, rtol, most).method;
 }
 
-// No explicit method, and hardly any damping.
+// No explicit method and very little damping.
 CostEstimate implicit_only(double damping_ratio = 0) {
   return {.damping_ratio = damping_ratio, .explicit_steps = kInfinity, .phase = 10, .solve_cost = 1, .factor_cost = 10};
 }
 
-// At rtol 1e-3 the safety is sqrt(0.1) by the energy, and an implicit method takes 10 + 7 phase = 80 steps of
-// 4 (1 + 1) forces for Newton's iterations and 0.3 (5 + 10) for tangents and factors.
+// At rtol 1e-3 the energy error gives the safety sqrt(0.1). An implicit method takes 10 + 7 phase = 80 steps, each with
+// 4 (1 + 1) forces for Newton iterations and 0.3 (5 + 10) for tangents and factors.
 constexpr double kImplicitCost = 80 * (8 + 4.5);
 const double kSafetyByEnergy = std::sqrt(0.1);
 
@@ -70,7 +70,8 @@ TEST(MethodChoice, IsOfHighOrderAtATightTolerance) {
   EXPECT_EQ(method(implicit_only(), 1.01e-4), "tr_bdf2");
 }
 
-// A method of order 2 lags by 1.2e-3 in each radian at rtol 1e-3, and by 1.2e-2/10^(1/3) at 1e-2; 20 rtol is accepted.
+// The phase lag of a method of order 2 is 1.2e-3 per radian at rtol 1e-3 and 1.2e-2/10^(1/3) at 1e-2; 20 rtol is
+// accepted.
 TEST(MethodChoice, IsOfHighOrderWhereTheLagOfManyPeriodsAddsUp) {
   const auto over = [](double phase, double rtol) {
     CostEstimate cost = implicit_only();
@@ -96,13 +97,14 @@ TEST(Safety, MakesThePhaseErrorAtTheEndTenTimesTheTolerance) {
   for (const double rtol : {1e-3, 1e-5}) {
     const CostEstimate cost{.explicit_steps = 200, .phase = 100};
     const double s = safety_of_central_differences(cost, rtol);
-    const double omega_h = s * cost.phase / cost.explicit_steps;  // leapfrog's frequency is off by (omega h)^2 / 24
+    // The relative frequency error of the leapfrog is (omega h)^2 / 24.
+    const double omega_h = s * cost.phase / cost.explicit_steps;
     EXPECT_NEAR(cost.phase * omega_h * omega_h / 24, 10 * rtol, 1e-12 * rtol);
   }
 }
 
 TEST(Safety, KeepsTheEnergyOfFastVibrationsToAHundredTolerances) {
-  // Where the motion's frequency is known, its phase decides.
+  // With a known frequency of the motion, its phase error decides.
   EXPECT_EQ(safety_of_central_differences({.explicit_steps = 200, .phase = 10, .known_phase = 100}, 1e-3),
             safety_of_central_differences({.explicit_steps = 200, .phase = 100}, 1e-3));
   const CostEstimate slow{.explicit_steps = 1e6, .phase = 1};

@@ -1,4 +1,4 @@
-// The highest order that the multistep methods take where the input names none: by the damping ratio of the motion.
+// The default maximum order of the multistep methods, by the damping ratio of the motion.
 #include <fmt/format.h>
 
 #include "tests/contract/integrators.h"
@@ -6,7 +6,7 @@
 namespace orthodyn::default_order_test {
 namespace {
 
-// Of 10 rad/s, as its scales say: a tenth of their ratio.
+// A motion of 10 rad/s according to its scales.
 LinearModel oscillator(double damping_ratio) {
   constexpr double kOmega = 10;
   return LinearModel({.mass = scalar(1),

@@ -1,4 +1,4 @@
-// The energy-momentum method keeps its invariants where the step is far beyond an explicit method's limit.
+// The energy-momentum method conserves its invariants at steps far above an explicit method's limit.
 #include "integrators/critical_step.h"
 #include "lib/simulation/run/setup.h"
 #include "tests/contract/integrators.h"
@@ -7,7 +7,7 @@
 namespace orthodyn::energy_momentum_test {
 namespace {
 
-// A free block, ten times stiffer along oblique fibres, that spins and is stretched a little.
+// A free, slightly stretched, spinning block, ten times stiffer along oblique fibres.
 BuiltTestScene spinning_block(const std::string& more = "") {
   return BuiltTestScene(
       "mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1], order: 1}\n"
@@ -19,7 +19,8 @@ BuiltTestScene spinning_block(const std::string& more = "") {
 }
 
 struct Drift {
-  double energy = 0, linear = 0, angular = 0;  // relative to kinetic + elastic energy and to spin's momentum
+  double energy = 0, linear = 0,
+         angular = 0;  // relative to kinetic plus elastic energy, and to the angular momentum of the spin
 };
 
 Drift drift(const BuiltTestScene& s, double step, int steps) {

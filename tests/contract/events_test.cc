@@ -1,4 +1,4 @@
-// Events happen where every integrator's own dense output has them.
+// Events are located on each integrator's dense output.
 #include <numbers>
 
 #include "lib/simulation/run/run.h"
@@ -32,7 +32,7 @@ Outcome run_with(const Pair& pair, const LinearModel& model, std::vector<Event> 
   Plan plan{model.end(), evenly_spaced(0, model.end(), 10)};
   plan.events = &finder;
   Outcome outcome = run(model, *integrator, model.initial(), plan, {&watch}, {false});
-  for (auto& crossing : watch.crossings) crossing.event = nullptr;  // it has died with the finder
+  for (auto& crossing : watch.crossings) crossing.event = nullptr;  // the event is destroyed with the finder
   return outcome;
 }
 
@@ -41,7 +41,7 @@ struct SignChange {
   bool upward;
 };
 
-// Of q - value, in a hundred looks at each step of a run without events.
+// Roots of q - value from a hundred samples per step of a run without events.
 std::vector<SignChange> sign_changes(const Pair& pair, const LinearModel& model, double value) {
   std::vector<SignChange> found;
   const auto integrator = make_integrator(pair, model, {.rtol = 1e-6});
@@ -84,7 +84,7 @@ TEST_P(Events, ThatStopEndTheRunWhereTheyHappen) {
                {{"leaves", position, 0.9, Direction::down}, {"arrives", position, -0.5, Direction::down, true}}, watch);
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   EXPECT_NE(outcome.remark.find("stopped by the event 'arrives' at t = "), std::string::npos) << outcome.remark;
-  EXPECT_NEAR(outcome.last.t, 2 * std::numbers::pi / 9, 0.03);  // low orders are off by as much
+  EXPECT_NEAR(outcome.last.t, 2 * std::numbers::pi / 9, 0.03);  // the error of low orders
   EXPECT_NEAR(outcome.last.q[0], -0.5, 1e-11);
   EXPECT_EQ(watch.crossings.size(), 2u);
   ASSERT_FALSE(watch.outputs.empty());

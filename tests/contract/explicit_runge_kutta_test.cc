@@ -1,4 +1,4 @@
-// Explicit Runge-Kutta methods on the imaginary axis, and what their tables ask for; Adams methods' iterations.
+// Explicit Runge-Kutta methods on the imaginary axis and the options of their tables; iterations of Adams methods.
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::explicit_runge_kutta_test {
@@ -22,8 +22,8 @@ double amplitude(const std::string& table, double h_omega) {
   return std::hypot(last.q[0], last.v[0] / omega);
 }
 
-// R(z) is the Taylor polynomial of degree 4 and 3: stable on the imaginary axis up to 2 sqrt 2, sqrt 3; that of
-// degree 2 is stable nowhere on it (Hairer & Wanner 1996, IV.2).
+// R(z) is the Taylor polynomial. On the imaginary axis, degree 4 is stable up to 2 sqrt 2, degree 3 up to sqrt 3,
+// degree 2 nowhere (Hairer & Wanner 1996, IV.2).
 TEST(ArkodeErk, IsStableOnTheImaginaryAxisUpToItsPolynomialsLimit) {
   EXPECT_LT(amplitude("ZONNEVELD_5_3_4", 0.99 * 2 * std::sqrt(2)), 1);
   EXPECT_GT(amplitude("ZONNEVELD_5_3_4", 1.01 * 2 * std::sqrt(2)), 10);

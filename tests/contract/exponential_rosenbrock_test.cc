@@ -1,4 +1,4 @@
-// The exponential Rosenbrock method and the functions that it applies.
+// The exponential Rosenbrock method and its phi functions.
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "integrators/native/krylov_phi.h"
@@ -83,7 +83,7 @@ TEST(KrylovPhi, OfAnInvariantSpaceIsExact) {
   EXPECT_LE((out - phi(1, 3 * J, b)).norm(), 1e-12);
 }
 
-// However long the step: only the Krylov spaces' tolerance is left of the error.
+// For any step size, the error is only the tolerance of the Krylov spaces.
 TEST(ExponentialRosenbrock, IsExactOnALinearModelInStepsOfAnyLength) {
   for (const auto& model : {damped_oscillator(), chain(false), stiff_pair()}) {
     const auto integrator = exponential(model, fmt::format(", rtol: 1e-9, step: {}", model.end() / 3));
@@ -93,7 +93,7 @@ TEST(ExponentialRosenbrock, IsExactOnALinearModelInStepsOfAnyLength) {
   }
 }
 
-// A load that is linear in time is served by dF/dt exactly, but for the round-off of its difference quotient.
+// dF/dt integrates a load that is linear in time exactly, except for the round-off of its difference quotient.
 TEST(ExponentialRosenbrock, IsExactUnderALoadThatIsLinearInTime) {
   const auto model = kinked_oscillator();
   const State last = integrate(model, *exponential(model, ", rtol: 1e-8, step: 0.5"));

@@ -1,4 +1,6 @@
-// What every integrator with a key `step` promises: that step, its order, its dense output.
+// Common behaviour of integrators with a key `step`: step size, order, dense output.
+#include <fmt/format.h>
+
 #include <sstream>
 
 #include "tests/contract/integrators.h"
@@ -38,7 +40,7 @@ TEST_P(FixedStep, IsTakenAsGivenButForTheLastTwoBeforeAStop) {
   }
 }
 
-// 20,000 additions of 1e-4 fall short of 2 by 2e-13, more than a library's own margin for round-off.
+// 20,000 additions of 1e-4 are 2e-13 below 2, more than the round-off margin of the libraries.
 TEST_P(FixedStep, LeavesNoSliverOfRoundOffBeforeAStop) {
   const auto model = damped_oscillator();
   const auto integrator = make(model, 1e-4);
@@ -72,12 +74,12 @@ std::vector<double> steps_for(int order) {
   }
 }
 
-// The names of all tables, from the key's documentation.
+// Names of all tables, from the sentence of the key.
 std::vector<std::string> tables(const std::string& integrator) {
   std::vector<std::string> names;
   for (const auto& key : Registry<IntegratorChoice>::entries().at(integrator).keys) {
     if (key.name != "table") continue;
-    std::istringstream in(type_text(key.shape));
+    std::istringstream in(type_text(key.schema));
     for (std::string name; std::getline(in, name, '|');) names.push_back(name);
   }
   return names;

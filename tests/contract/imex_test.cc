@@ -1,4 +1,4 @@
-// Additive Runge-Kutta methods: their orders whichever part is explicit, and their refusals.
+// Additive Runge-Kutta methods: orders for each choice of the explicit part, and refusals.
 #include "tests/contract/integrators.h"
 #include "tests/contract/parted_model.h"
 
@@ -42,7 +42,7 @@ TEST_P(Imex, ErrorFallsWithTheToleranceAtTheEndsOfStepsAndBetween) {
     });
 }
 
-// A load is explicit most often; here with kinks.
+// The load is usually the explicit part; here it has kinks.
 TEST(Imex, TreatsAKinkedLoadExplicitly) {
   const PartedModel model({.mass = scalar(1),
                            .stiffness = scalar(9),
@@ -54,7 +54,7 @@ TEST(Imex, TreatsAKinkedLoadExplicitly) {
   EXPECT_LE(error_of(model, ", explicit: [load], rtol: 1e-6"), 1e-4);
 }
 
-// The stiff spring is implicit: steps a thousand times above its explicit limit.
+// With an implicit stiff spring, steps are a thousand times above its explicit limit.
 TEST(Imex, AStiffImplicitPartDoesNotLimitTheStep) {
   Matrix K(2, 2);
   K << 1 + 1e6, -1e6, -1e6, 1 + 1e6;
@@ -90,7 +90,7 @@ TEST(Imex, RefusesASplitThatLeavesOneSideEmptyWithTheRemedy) {
   EXPECT_NE(reading_refusal(parted_oscillator(), ", explicit: [spring, damper]").find("arkode_erk"), std::string::npos);
 }
 
-// A model that does not tell of what its force consists.
+// A model whose force has no named parts.
 class Partless : public LinearModel {
  public:
   Partless() : LinearModel(damped_oscillator()) {}
@@ -99,7 +99,7 @@ class Partless : public LinearModel {
 
 TEST(Imex, RefusesAModelWithoutPartsWithTheRemedy) {
   const auto message = reading_refusal(Partless(), ", explicit: [spring]");
-  EXPECT_NE(message.find("no parts"), std::string::npos) << message;
+  EXPECT_NE(message.find("not divided into parts"), std::string::npos) << message;
   EXPECT_NE(message.find("arkode_dirk"), std::string::npos) << message;
 }
 

@@ -43,7 +43,7 @@ std::unique_ptr<Integrator> make_integrator(const Pair& pair, const SmallModel& 
   std::string yaml = "{type: " + pair.integrator + tested(pair.integrator).needs;
   if (controls_its_error(pair.integrator)) yaml += fmt::format(", rtol: {}", o.rtol);
   else if (o.more.find("step:") == std::string::npos) yaml += ", step: 0.01";
-  // One whose step nothing limits on a linear model would be done in a few.
+  // A method without a step limit on linear models would need only a few steps.
   if (tested(pair.integrator).exact_if_linear && o.more.find("step:") == std::string::npos &&
       o.more.find("h_max:") == std::string::npos)
     yaml += ", h_max: 0.05";

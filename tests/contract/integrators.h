@@ -1,4 +1,4 @@
-// Every integrator of the registry with every linear solver that it takes.
+// Every registered integrator with every linear solver that it accepts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,37 +19,37 @@ inline std::string pair_name(const testing::TestParamInfo<Pair>& tested) {
 
 std::vector<Pair> all_pairs();
 
-// What reading an integrator's section says of it; "" if it is taken.
+// Error message of reading an integrator's section; "" if it is accepted.
 std::string reading_refusal(const std::string& yaml);
 
-// Those whose integrator has the key.
+// The variants whose integrator has the key.
 std::vector<Pair> pairs_with(const std::string& key);
 
-// klu_full of a method for y' = (v, M^-1 f) would need the inverse of a consistent mass, which is dense.
+// With klu_full, a method for y' = (v, M^-1 f) would need the dense inverse of a consistent mass.
 bool refuses_consistent_mass(const Pair& pair);
 
-// SUNDIALS asks an iterative solver for no correction that would be below its tolerance.
+// SUNDIALS skips corrections below the tolerance of an iterative solver.
 bool leaves_out_solutions(const Pair& pair);
 
 struct Options {
   double rtol = 1e-5;
-  int order = 2;          // the first variant where the method has none of this order
+  int order = 2;          // the first variant if the method has none of this order
   std::string more = "";  // ", key: value"
 };
 
 const Variant& variant(const std::string& integrator, int order);
 
-// Without error control a step of 0.01 is taken, unless `more` says another.
+// Methods without error control take a step of 0.01 unless `more` sets another.
 std::unique_ptr<Integrator> make_integrator(const Pair& pair, const SmallModel& model, const Options& options = {});
 
 using OnStep = std::function<void(const StepInfo&, const Integrator&)>;
 
-// From start to end with a restart at each breakpoint, as run() does.
+// Integrates from start to end with a restart at each breakpoint, as run() does.
 State integrate(const SmallModel& model, Integrator& integrator, const OnStep& on_step = {});
 
 double distance(const State& a, const State& b, const Scales& scales);
 
-// The largest error over time: at the ends of steps, or between them at `fraction` of each.
+// Largest error over time: at the ends of steps, or at `fraction` of each step.
 template <class ExactModel>
 double largest_error(const ExactModel& model, const Pair& pair, const Options& options, double fraction = 1) {
   double largest = 0;

@@ -54,7 +54,7 @@ std::vector<std::string> tried_solvers(const std::string& integrator) {
   const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
   if (!tested(integrator).full_path) {
     std::vector<std::string> names{"cholmod", "klu"};
-    // One of each of our own ways to a solution, and the others alike.
+    // PETSc with one native method of each kind; the others solve in the same way.
     if (has_petsc && (integrator == "tr_bdf2" || integrator == "rosenbrock")) names.push_back("petsc");
     return names;
   }

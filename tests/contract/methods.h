@@ -1,4 +1,4 @@
-// What the suite must know of each integrator that its keys do not tell.
+// Properties of each integrator that the suite needs and that its keys do not give.
 #pragma once
 
 #include <map>
@@ -19,13 +19,13 @@ struct Variant {
 };
 
 struct TestedMethod {
-  std::vector<Variant> variants;  // at least one
-  bool stiff = true;              // steps may be far longer than a stiff time scale
-  bool full_path = false;         // takes linear_solver: klu_full
-  bool exact_if_linear = false;   // the error is that of Krylov spaces or of the load's interpolation, and has no order
-  std::string needs = "";         // options without which there is no such method
-  bool has_one_estimator = false;  // of the local error of its one order
-  bool chooses = false;            // is one of the others, and has tests of its own
+  std::vector<Variant> variants;   // at least one
+  bool stiff = true;               // steps may be much longer than a stiff time scale
+  bool full_path = false;          // accepts linear_solver: klu_full
+  bool exact_if_linear = false;    // the error is that of Krylov spaces or of the load's interpolation: no order
+  std::string needs = "";          // required options
+  bool has_one_estimator = false;  // the local error of its single order
+  bool chooses = false;            // selects another integrator; has its own tests
   bool keeps_energy = false;       // to round-off
   bool linear_only = false;        // refuses all other models
 };
@@ -38,8 +38,7 @@ bool has_key(const std::string& integrator, const std::string& key);
 bool controls_its_error(const std::string& integrator);
 bool solves_systems(const std::string& integrator);
 
-// The solvers of which it is tried: all where SUNDIALS' own path is one of them, else a symmetric and a
-// general one.
+// Linear solvers to test: all for SUNDIALS methods, otherwise a symmetric and a general one.
 std::vector<std::string> tried_solvers(const std::string& integrator);
 
 }  // namespace orthodyn

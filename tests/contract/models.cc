@@ -50,7 +50,7 @@ void SmallModel::gather(const Matrix& full, double* values) const {
     for (int i = pattern_.symmetric ? j : 0; i < pattern_.n; ++i) *values++ = full(i, j);
 }
 
-// A share of another model's force.
+// A fraction of another model's force.
 class Share : public SmallModel {
  public:
   Share(const SmallModel& whole, double share)

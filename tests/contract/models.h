@@ -25,12 +25,12 @@ class SmallModel : public Model, public DiscreteGradient {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override;
   void solve_mass(VectorRef x) const override;
 
-  // Two halves of the whole force, named as two parts of a body's are.
+  // Two halves of the force as named parts, as a body has them.
   std::vector<std::string> force_parts() const override { return {"gravity", "elasticity"}; }
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
 
   const DiscreteGradient* discrete_gradient() const override { return this; }
-  // That of the middle: exact where the energy is quadratic.
+  // Force at the midpoint: exact for a quadratic energy.
   void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, const ConstVectorRef& v,
                   VectorRef f) const override;
 
@@ -64,8 +64,8 @@ class LinearModel : public SmallModel {
   struct Given {
     Matrix mass, stiffness;
     double beta = 0;                                 // s
-    Vector load = {};                                // N; none if empty
-    std::vector<std::array<double, 2>> factor = {};  // times and values; constant beyond its ends
+    Vector load = {};                                // N; no load if empty
+    std::vector<std::array<double, 2>> factor = {};  // times and values; constant beyond the ends
     Vector start = {};                               // q(0); v(0) = 0
     double end = 1;                                  // s
     double velocity_scale = 1;
@@ -97,25 +97,25 @@ inline Matrix scalar(double x) { return Matrix::Constant(1, 1, x); }
 
 LinearModel harmonic_oscillator();
 
-// A fifth of critical damping.
+// Damping ratio 1/5.
 LinearModel damped_oscillator();
 
 // Two equal oscillators joined by a spring 10^6 times stiffer: the joint motion is slow, the relative
 // motion stiff and strongly damped.
 LinearModel stiff_pair();
 
-// Pushed by a load that rises from t = 1 to t = 2 and then stays: two kinks.
+// Loaded by a ramp from t = 1 to t = 2, then constant: two kinks.
 LinearModel kinked_oscillator();
 
 // Two masses between springs, suddenly loaded (Bathe, Finite Element Procedures, 1996, example 9.1).
 LinearModel bathes_two_masses();
 
-// A slow motion beside a fast one with eigenvalues -10 +- 100i, on which multistep methods of high order stall
-// (Enright, Hull & Lindberg 1975, problem B5; Shampine 1994). The fast one is small at the start.
+// A slow and a fast motion with eigenvalues -10 +- 100i, on which multistep methods of high order stall (Enright, Hull
+// & Lindberg 1975, problem B5; Shampine 1994). The fast motion is small at the start.
 LinearModel fast_ringing();
 
-// Eight masses in a row between walls, damped; the first is drawn aside. With `consistent` the mass
-// matrix of linear finite elements, else a diagonal one.
+// Eight damped masses in a row between walls; the first is displaced. `consistent`: the mass matrix of linear finite
+// elements, otherwise a diagonal one.
 LinearModel chain(bool consistent);
 
 // A mass on a stiff spring in the plane, under gravity: q = (x, y) from the hinge.
@@ -126,7 +126,7 @@ class SpringPendulum : public SmallModel {
   static constexpr double kStiffness = 400, kGravity = 1;  // rest length 1, mass 1
 
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
-  // The spring's as in l^2, whose work is the change of its energy.
+  // Discrete gradient of the spring in l^2, whose work is the change of its energy.
   void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, const ConstVectorRef& v,
                   VectorRef f) const override;
   double energy(const State& s) const;
@@ -141,14 +141,13 @@ class SpringPendulum : public SmallModel {
   double drag_;
 };
 
-// Released from the horizontal, the spring stretched a little.
+// Released from the horizontal with a slightly stretched spring.
 SpringPendulum pendulum();
 
-// A column that stands exactly upright, pressed a little: it stays, and its sideways stiffness is
-// negative.
+// An exactly upright column under slight compression: it stays upright, and its transverse stiffness is negative.
 SpringPendulum upright_column();
 
-// Follower force: a stiffness that is not symmetric. Stable, for it is damped.
+// A follower force: unsymmetric stiffness. Stable because of its damping.
 class CirculatoryModel : public SmallModel {
  public:
   CirculatoryModel();
@@ -164,7 +163,7 @@ class CirculatoryModel : public SmallModel {
   Matrix damping(const Vector& q) const override;
 };
 
-// A model whose force does something else at chosen calls.
+// A model whose force behaves differently in selected calls.
 template <class Base>
 class Disturbed : public Base {
  public:

@@ -1,4 +1,4 @@
-// What each of our own implicit methods promises beside its order: energy, damping at infinity, coefficients.
+// Properties of the native implicit methods besides their order: energy, damping at infinity, coefficients.
 #include <numbers>
 
 #include "integrators/native/ros34pw2.h"
@@ -27,8 +27,8 @@ State after_steps(const SmallModel& model, const std::string& options, int steps
   return state;
 }
 
-// What a step leaves of a motion a million times faster than the step: rho of an amplitude k^p rho^k after k steps,
-// for roots that coincide at infinity let powers of k appear.
+// Damping of a motion a million times faster than the step: rho in the amplitude k^p rho^k after k steps. Coinciding
+// roots at infinity cause the powers of k.
 double left_at_infinity(const std::string& options) {
   const auto model = undamped(1e6);
   const auto log_amplitude = [&](int steps) {
@@ -46,7 +46,7 @@ TEST(AlphaMethods, LeaveOfFastOscillationsWhatTheirParameterSays) {
     EXPECT_NEAR(left_at_infinity(fmt::format("hht_alpha, alpha: {}", alpha)), (1 + alpha) / (1 - alpha), 0.03) << alpha;
 }
 
-// A stop every 10.01 steps: one and a hundredth of a step would excite what is fast 47 times a stop.
+// A stop every 10.01 steps: a remaining step of a hundredth would amplify fast motion by a factor of 47 per stop.
 TEST(AlphaMethods, AreNotExcitedByStopsBetweenTheirSteps) {
   constexpr double h = 0.1;
   for (const std::string method :
@@ -66,7 +66,7 @@ TEST(AlphaMethods, AreNotExcitedByStopsBetweenTheirSteps) {
     }
 }
 
-// The force of a state between the ends of a step is that of a rod shortened by its turn: it would gain energy.
+// The force at the interpolated mid-step state, a rod shortened by its rotation, would add energy.
 TEST(AlphaMethods, GainNoEnergyWhereAStiffRodTurns) {
   const auto model = pendulum();
   const double at_start = model.energy(model.initial());
@@ -104,7 +104,7 @@ TEST(TrapezoidalRule, KeepsTheEnergyOfALinearModel) {
   }
 }
 
-// Its amplification for q'' = -omega^2 q is 1 / (1 - i omega h).
+// The amplification factor for q'' = -omega^2 q is 1 / (1 - i omega h).
 TEST(BackwardEuler, DampsAsItsFormulaSays) {
   const State s = after_steps(undamped(2), "backward_euler", 10, 0.1);
   EXPECT_NEAR(std::hypot(s.q[0], s.v[0] / 2), std::pow(1 + 0.04, -5), 1e-9);
@@ -118,7 +118,7 @@ TEST(SemiImplicitEuler, IsBackwardEulerOnALinearModel) {
   EXPECT_LE(distance(a, b, model.scales()), 1e-9);
 }
 
-// Rang & Angermann (2005): with any matrix in place of the Jacobian, order three asks for eight conditions.
+// Rang & Angermann (2005): with an arbitrary matrix instead of the Jacobian, order three needs eight conditions.
 TEST(Rosenbrock, CoefficientsSatisfyTheConditionsForAnyMatrix) {
   const Ros34Pw2 r;
   const Eigen::Vector4d one = Eigen::Vector4d::Ones(), c = r.alpha * one, g = r.gamma * one;
@@ -164,9 +164,7 @@ TEST(NativeMethods, RefuseSundialsOwnSolverWithTheRemedy) {
     Registry<IntegratorChoice>::read(Config::from_text("{type: tr_bdf2, linear_solver: klu_full}", "a.yaml"));
     FAIL() << "accepted";
   } catch (const ConfigError& e) {
-    EXPECT_NE(std::string(e.what()).find("'klu_full' is SUNDIALS' own; this integrator takes one of"),
-              std::string::npos)
-        << e.what();
+    EXPECT_NE(std::string(e.what()).find("'klu_full' belongs to SUNDIALS' integrators"), std::string::npos) << e.what();
   }
 }
 

@@ -1,4 +1,4 @@
-// Newton's method in our own implicit methods: how often it makes a matrix, and what it does where it fails.
+// Newton's method in the native implicit methods: number of matrices, and treatment of failures.
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::native_newton_test {
@@ -45,7 +45,7 @@ TEST(NativeNewton, KindsReachTheSameEnd) {
   for (const std::string kind : {"modified", "full"}) EXPECT_LE(distance(end(kind), lazy, {1, 20}), 1e-8) << kind;
 }
 
-// A spring that hardens: from far away full Newton with one iteration finds nothing at this step.
+// A hardening spring: from a distant start, one iteration of full Newton does not converge at this step size.
 TEST(NativeNewton, WithoutASolutionAFixedStepIsHalvedAndCounted) {
   const auto model = pendulum();
   const auto integrator = make(model, "newmark, step: 0.25, max_newton_iterations: 2");

@@ -1,4 +1,4 @@
-// The matrix of every implicit scheme: what it solves, and what it falls back to.
+// The Newton matrix of implicit schemes: its solutions and its fallback.
 #include "integrators/newton_matrix.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(NewtonMatrix, MultipliesByTheStiffness) {
   EXPECT_LE((y - product(model, {0, 0, 1}, TangentKind::exact, at, x)).norm(), 1e-13 * y.norm());
 }
 
-// The sideways stiffness of a pressed column is negative.
+// The transverse stiffness of a compressed column is negative.
 TEST(NewtonMatrix, TakesTheGaussNewtonPartWhereTheExactOneIsIndefinite) {
   const auto model = upright_column();
   const State at = model.initial();
@@ -75,7 +75,7 @@ TEST(NewtonMatrix, StaysWithTheGaussNewtonPartForTenSetUps) {
     matrix.linearize(at.t, at.q, at.v);
     ASSERT_TRUE(matrix.factor({1, 0, 100}));
   };
-  for (int k = 0; k < 11; ++k) set_up();  // the first, which falls back, and the ten
+  for (int k = 0; k < 11; ++k) set_up();  // the first one, which falls back, and the ten others
   EXPECT_EQ(statistics.gauss_newton_fallbacks, 1);
   set_up();
   EXPECT_EQ(statistics.gauss_newton_fallbacks, 2);

@@ -1,4 +1,4 @@
-// A linear oscillator whose force has named parts: spring, damper and, where it is loaded, load.
+// A linear oscillator whose force has named parts: spring, damper and, if loaded, load.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class PartedModel : public LinearModel {
           load_(load) {
       traits_ = whole.traits();
     }
-    // The load is what is left of the whole force at rest.
+    // The load is the force at q = 0, v = 0.
     void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
       f = -spring_ * q - damper_ * v;
       if (!load_) return;
@@ -61,7 +61,7 @@ class PartedModel : public LinearModel {
   Given given_;
 };
 
-// A twentieth of critical damping.
+// Damping ratio 1/20.
 inline PartedModel parted_oscillator() {
   return PartedModel({.mass = scalar(2),
                       .stiffness = scalar(18),

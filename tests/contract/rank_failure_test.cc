@@ -1,17 +1,17 @@
-// A force that one of several ranks cannot go on with: all take the same way.
+// A force evaluation that fails on one of several ranks: all ranks take the same decision.
 #include <chrono>
 #include <condition_variable>
 #include <limits>
 #include <mutex>
 #include <thread>
 
-#include "integrators/finite_force.h"
+#include "integrators/run_checks.h"
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::rank_failure_test {
 namespace {
 
-// Where two ranks, threads of this process, meet. One that is not met within some seconds is at another place.
+// Rendezvous of two ranks, which are threads of this process. A timeout of some seconds means that their calls differ.
 class Meeting {
  public:
   template <class Combine>
@@ -54,7 +54,7 @@ class ThreadRanks : public Ranks {
     if (rank_ > 0) std::fill(values.begin(), values.end(), 0);
     sum(values);
   }
-  // Of what these models do not need.
+  // Not needed by these models.
   long sum_before(long) const override { throw std::logic_error("not here"); }
   std::vector<double> gather(std::span<const double>) const override { throw std::logic_error("not here"); }
   void scatter(std::span<const double>, std::span<double>) const override { throw std::logic_error("not here"); }
@@ -62,7 +62,7 @@ class ThreadRanks : public Ranks {
   std::unique_ptr<NodeExchange> exchange(int, const std::vector<RemoteNode>&) const override {
     throw std::logic_error("not here");
   }
-  bool meet(double) const override { return true; }
+  bool barrier_within(double) const override { return true; }
   void abort(int) const override { std::abort(); }
 
  private:
@@ -70,7 +70,7 @@ class ThreadRanks : public Ranks {
   int rank_;
 };
 
-// One of two oscillators that have nothing to do with each other; the second's force is not finite `times` times after
+// One of two uncoupled oscillators; the force of the second is not finite in `times` calls after
 // t = 0.2.
 class Half : public LinearModel {
  public:
@@ -122,7 +122,7 @@ std::array<End, 2> on_two_ranks(const std::string& method, long times) {
   return ends;
 }
 
-// Of those that are not SUNDIALS', whose vectors are MPI's.
+// All but those of SUNDIALS, whose vectors need MPI.
 class OnTwoRanks : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Native, OnTwoRanks,
                          testing::Values("generalized_alpha", "tr_bdf2", "sdirk", "rosenbrock", "bathe", "newmark"));

@@ -1,4 +1,4 @@
-// The registry of integrators as a whole: every one is known to this suite, explains itself and is another.
+// The registry of integrators: each one is covered by this suite, documented and distinct.
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::registry_test {
@@ -21,8 +21,7 @@ TEST(IntegratorRegistry, TellsOrderStabilityInvariantsAndSourceOfEach) {
   }
 }
 
-// One step of those that take fixed steps, with their defaults, a whole run of the others, on a nonlinear, damped
-// model.
+// One step of fixed-step methods with their defaults, a whole run of the others, on a nonlinear, damped model.
 State moved(const std::string& integrator) {
   const SpringPendulum model{Vector{{1.1, 0}}, 0.5};
   const Pair pair{integrator, tried_solvers(integrator).front()};

@@ -10,7 +10,7 @@ namespace {
 
 using namespace sundials;
 
-// F(x) = x - 1, stretched along each axis, with the unit matrix in place of its derivative.
+// F(x) = D (x - 1) with diagonal D, and the unit matrix instead of its derivative.
 struct Problem {
   Vector stretch;
   int solves = 0;
@@ -25,7 +25,7 @@ struct Problem {
     return 0;
   }
 
-  // From zero, until errors are estimated to be below 1e-12; returns SUNDIALS' flag.
+  // Iterates from zero to an estimated error below 1e-12; returns SUNDIALS' flag.
   int solve_from_zero(SUNNonlinearSolver solver, SUNContext context, Vector* x) {
     const OwnedVector y0 = make_vector(stretch.size(), context), y = make_vector(stretch.size(), context),
                       weights = make_vector(stretch.size(), context);
@@ -47,16 +47,16 @@ struct Problem {
   }
 };
 
-// What a matrix of another gamma does: stiff and soft directions are off by one factor each. Of two factors the secants
-// of two steps know all: the third correction is exact, and the fourth finds nothing to do. Without them each step
-// takes the error down by 0.6, to 1e-12 in 55.
+// A matrix of another gamma: stiff and soft directions have one wrong factor each. Two secants determine two factors,
+// so the third correction is exact and the fourth is zero. Without secants each step reduces the error by 0.6: 55 steps
+// to 1e-12.
 TEST(SecantNewton, SolvesAtOnceWhatIsOffByTwoFactors) {
   const Context context;
   Problem problem{(Vector(6) << 0.5, 0.5, 1.6, 0.5, 1.6, 1.6).finished()};
   const OwnedVector y = make_vector(6, context);
   CallbackContext callbacks;
   const SecantNewton newton(y.get(), context, callbacks);
-  for (const char* time : {"first", "second"}) {  // no secant is left of the first
+  for (const char* time : {"first", "second"}) {  // no secant of the first solve remains
     SCOPED_TRACE(time);
     EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
     EXPECT_EQ(problem.solves, 4);
@@ -73,7 +73,7 @@ TEST(SecantNewton, ConvergesWithManyFactors) {
   EXPECT_LT(problem.solves, 55) << "as many as without secants";
 }
 
-// All secants are parallel: the second one tells nothing.
+// All secants are parallel: the second adds no information.
 TEST(SecantNewton, SolvesAtOnceWhatIsOffByOneFactor) {
   const Context context;
   Problem problem{Vector::Constant(6, 1.6)};
@@ -96,7 +96,7 @@ TEST(SecantNewton, ForgetsASolveThatWentWrong) {
 }
 
 // The second correction is zero.
-// A lost rank, say: the exception is kept for whoever called SUNDIALS, which is told that something is wrong.
+// For example a lost rank: SUNDIALS gets an error flag, and the exception is rethrown to its caller.
 TEST(SecantNewton, PassesNoExceptionThroughSundials) {
   struct Lost : Ranks {
     int rank() const override { return 0; }
@@ -109,7 +109,7 @@ TEST(SecantNewton, PassesNoExceptionThroughSundials) {
     void scatter(std::span<const double>, std::span<double>) const override {}
     std::vector<int> partition(const CellGraph&) const override { return {}; }
     std::unique_ptr<NodeExchange> exchange(int, const std::vector<RemoteNode>&) const override { return nullptr; }
-    bool meet(double) const override { return false; }
+    bool barrier_within(double) const override { return false; }
     void abort(int) const override { std::abort(); }
   } const lost;
   const Context context;

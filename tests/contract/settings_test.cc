@@ -1,4 +1,4 @@
-// Every integrator tells and takes the settings that it has keys for.
+// Every integrator reports and accepts the settings for which it has keys.
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::settings_test {

@@ -5,7 +5,7 @@
 namespace orthodyn::sundials::setup_schedule_test {
 namespace {
 
-// Steps with a new matrix until an old one is tried again.
+// Number of steps with a new matrix before an old one is tried again.
 int new_steps(SetupSchedule& schedule) {
   int steps = 0;
   for (; schedule.interval() == 1; ++steps) schedule.note(true);
@@ -31,7 +31,7 @@ TEST(SetupSchedule, TakesNewOnesForLongerEachTimeThatAnOldOneFailsAgain) {
     schedule.note(true);
   }
   EXPECT_EQ(new_steps(schedule), 64);
-  schedule.note(false);  // an old one served: from the beginning
+  schedule.note(false);  // an old matrix converged: the count starts again
   for (int k = 0; k < 4; ++k) schedule.note(true);
   EXPECT_EQ(new_steps(schedule), 4);
 }

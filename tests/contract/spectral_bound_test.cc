@@ -1,4 +1,4 @@
-// The largest eigenvalue of A x = lambda M x is bounded from above, and closely.
+// Close upper bounds of the largest eigenvalue of A x = lambda M x.
 #include "integrators/spectral_bound.h"
 
 #include <gtest/gtest.h>
@@ -50,11 +50,11 @@ TEST(SpectralBound, IsOneAgainAfterTheMatrixHasChanged) {
   const auto model = row_of_masses(n, 1);
   SpectralBound bound(model);
   bound.largest(stiffness_of(model).data());
-  // The sign turns the spectrum around: the warm start has hardly any part in the mode that is largest now.
+  // The sign reverses the spectrum: the warm start is almost orthogonal to the new largest mode.
   auto turned = stiffness_of(model, -1);
   std::size_t k = 0;
   for (int j = 0; j < n; ++j) {
-    turned[k] += 4;  // 4 I - K, of which the slowest mode is the largest
+    turned[k] += 4;  // 4 I - K, whose largest eigenvalue belongs to the slowest mode
     k += static_cast<std::size_t>(n - j);
   }
   const double exact = 4 - 4 * std::pow(std::sin(0.5 * std::numbers::pi / (n + 1)), 2);
@@ -63,7 +63,7 @@ TEST(SpectralBound, IsOneAgainAfterTheMatrixHasChanged) {
   EXPECT_LE(again, exact * kClose);
 }
 
-// One eigenvalue far above the others is known to round-off after a few steps, of which there are more.
+// An isolated largest eigenvalue converges to round-off after fewer steps than are taken.
 TEST(SpectralBound, OfOneStiffSpringIsThatOfTheSpring) {
   constexpr int kMasses = 100;
   for (const double mass : {1.0, 1e-9, 1e-30}) {

@@ -1,4 +1,4 @@
-// Newton's method for one implicit stage: what it finds, and when it makes its matrix anew.
+// Newton's method for one implicit stage: solutions, and updates of the matrix.
 #include "integrators/native/stage_solver.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace orthodyn::stage_solver_test {
 namespace {
 
-// A solver of stages at a fixed step, from a model's initial state.
+// A stage solver with a fixed step at a model's initial state.
 class Stages {
  public:
   explicit Stages(const SmallModel& model, NewtonKind kind = NewtonKind::lazy)
@@ -38,7 +38,7 @@ class Stages {
     return (mx - f).norm() / first.norm();
   }
 
-  // Of q and v from x.
+  // q and v from x.
   double mismatch() const {
     return (q_ - stage_.q - stage_.w_k * x_).norm() + (v_ - stage_.v - stage_.w_d * x_).norm();
   }
@@ -69,7 +69,7 @@ TEST(StageSolver, FindsTheAccelerationOfALinearModelInTwoIterations) {
   ASSERT_TRUE(stages.solve(0.1));
   EXPECT_LE(stages.residual(), 1e-11);
   EXPECT_LE(stages.mismatch(), 1e-13);
-  EXPECT_LE(stages.statistics().newton_iterations, 2);  // the second sees that nothing is left
+  EXPECT_LE(stages.statistics().newton_iterations, 2);  // the second confirms convergence
 }
 
 TEST(StageSolver, FindsTheAccelerationOfANonlinearModel) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace sundials;
 
-// Shorter than a block, blocks without a rest, and both.
+// Shorter than a block, whole blocks, and blocks with a remainder.
 constexpr int kLengths[] = {1, 31, 32, 33, 64, 100};
 
 class VectorOperations : public testing::TestWithParam<int> {
@@ -62,7 +62,7 @@ TEST_P(VectorOperations, CombineSeveralAtOnce) {
   ASSERT_EQ(N_VLinearCombination(3, weights, three, x.get()), 0);
   const Vector combined = x_ - 0.25 * y_ + 3 * (x_ + y_);
   for (Eigen::Index i = 0; i < n_; ++i) EXPECT_NEAR(view(x.get())[i], combined[i], 1e-14 * combined.norm());
-  ASSERT_EQ(N_VLinearCombination(2, weights, three + 1, z.get()), 0);  // onto the last of them
+  ASSERT_EQ(N_VLinearCombination(2, weights, three + 1, z.get()), 0);  // overwriting the last one
   const Vector pair = y_ - 0.25 * (x_ + y_);
   for (Eigen::Index i = 0; i < n_; ++i) EXPECT_NEAR(view(z.get())[i], pair[i], 1e-14 * combined.norm());
   view(z.get()) = x_ + y_;
@@ -76,7 +76,7 @@ TEST_P(VectorOperations, CombineSeveralAtOnce) {
   }
 }
 
-// Error tests go by it.
+// Used by error tests.
 TEST_P(VectorOperations, NormsTellOfEntriesThatAreNoNumbers) {
   const OwnedVector w = vector_of(Vector::Ones(n_));
   for (Eigen::Index i = 0; i < n_; ++i) {
@@ -92,7 +92,7 @@ TEST_P(VectorOperations, DifferencesOfEqualsAreZero) {
   EXPECT_EQ(view(x.get()).norm(), 0);
 }
 
-// A run repeated in another place of the memory takes the same steps.
+// A run repeated at another memory address takes the same steps.
 TEST_P(VectorOperations, DoNotDependOnAddresses) {
   Vector room(2 * n_ + 16);
   const auto results_at = [&](Eigen::Index begin) {

@@ -1,9 +1,9 @@
-// Digits that follow an error.
-#include "lib/core/digits.h"
-
+// Numbers printed with as many digits as their error allows.
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "lib/core/number_format.h"
 
 namespace orthodyn::digits_test {
 namespace {
@@ -14,7 +14,7 @@ TEST(KnownDigits, AreThoseThatTheErrorDoesNotTouchAndOneMore) {
   EXPECT_EQ(known_digits(324.4871, 1e-3), "324.5");
   EXPECT_EQ(known_digits(-0.0123456, 1e-3), "-0.01235");
   EXPECT_EQ(known_digits(324.4871, -1e-3), "324.5");
-  EXPECT_EQ(known_digits(324.4871, 5), "320");  // two at least
+  EXPECT_EQ(known_digits(324.4871, 5), "320");  // at least two digits
 }
 
 TEST(KnownDigits, AreSevenWhereNoErrorIsTold) {

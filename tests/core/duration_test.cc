@@ -1,7 +1,7 @@
-// Spans of time in words.
-#include "lib/core/duration.h"
-
+// Durations in words.
 #include <gtest/gtest.h>
+
+#include "lib/core/number_format.h"
 
 namespace orthodyn::duration_test {
 namespace {

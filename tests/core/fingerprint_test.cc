@@ -1,4 +1,4 @@
-// A fingerprint tells texts apart, and knows a text that comes in pieces.
+// Fingerprints of different texts differ, and do not depend on how a text is divided into pieces.
 #include "lib/core/fingerprint.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The memory that a process may use, where control groups limit it.
+// The memory that a process may use if control groups (cgroups) limit it.
 #include "lib/core/memory.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,8 @@ TEST_F(Groups, WithoutLimitsAreNone) {
   EXPECT_TRUE(std::isinf(found("").left));
 }
 
-// Of eight workers in one container each sees what the others have taken; caches of files are given back.
+// The usage of a group includes all processes in it, such as eight workers in one container. Inactive file caches
+// count as free.
 TEST_F(Groups, CountWhatAllTheirProcessesUse) {
   put("a/memory.max", "8000\n");
   put("a/memory.current", "7000\n");

@@ -50,7 +50,7 @@ TEST(LoopThreads, AreThoseOfTheThreadThatMadeThem) {
   EXPECT_EQ(loop_threads(), 3);
   std::thread other([] {
     EXPECT_EQ(loop_threads(), 1);
-    for (int n = 1; n < 20; ++n) {  // while the other thread's loops run
+    for (int n = 1; n < 20; ++n) {  // concurrently with the loops of the main thread
       const LoopThreads own(1 + n % 3);
       std::atomic<int> count = 0;
       parallel_for(50, [&](int) { ++count; });

@@ -1,4 +1,4 @@
-// Names that are not known: which one may be meant, and the sentence about it.
+// Unknown names: the suggested name, and the sentence that suggests it.
 #include "lib/core/spelling.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(DidYouMean, PrefersTheExactEntryAndOfEqualOnesTheFirst) {
   EXPECT_EQ(did_you_mean("nu1", {"nu12", "nu13"}), "; did you mean 'nu12'?");
 }
 
-// A third of the letters may differ, and two at least.
+// A third of the letters may differ, or two letters if that is more.
 TEST(DidYouMean, AllowsMoreSlipsInALongerName) {
   EXPECT_EQ(did_you_mean("ab", {"cd"}), "; did you mean 'cd'?");
   EXPECT_EQ(did_you_mean("abc", {"xyz"}), "");

@@ -1,4 +1,4 @@
-// Numbers with a unit, where a key has a dimension.
+// Numbers with a unit, for keys that have a dimension.
 #include "lib/core/units.h"
 
 #include <gtest/gtest.h>
@@ -73,9 +73,9 @@ TEST(Units, AnUnknownUnitIsNamed) {
 }
 
 TEST(Units, ADecimalCommaIsNamed) {
-  EXPECT_EQ(refusal_of("'10,8 GPa'", {.unit = "Pa"}),
-            "a.yaml:1:1: expected a stress or stiffness (Pa), found '10,8 GPa', with a decimal comma; write "
-            "'10.8 GPa'");
+  EXPECT_EQ(
+      refusal_of("'10,8 GPa'", {.unit = "Pa"}),
+      "a.yaml:1:1: expected a stress or stiffness (Pa), found '10,8 GPa', with a decimal comma; write '10.8 GPa'");
   EXPECT_TRUE(
       holds(refusal_of("0,44", {}), "expected a plain number, found '0,44', with a decimal comma; write '0.44'"));
 }
@@ -85,8 +85,9 @@ TEST(Units, AKeyWithoutDimensionTakesPlainNumbersOnly) {
 }
 
 TEST(Units, APercentageIsNamedAsNoUnit) {
-  EXPECT_TRUE(holds(refusal_of("30 %", {}), "expected a plain number, found '30 %': % is no unit here; write 0.3"));
-  EXPECT_TRUE(holds(refusal_of("5 %", {.unit = "Pa"}), "found '5 %': % is no unit here"));
+  EXPECT_TRUE(holds(refusal_of("30 %", {}),
+                    "expected a plain number, found '30 %': the unit % is not allowed here; write 0.3"));
+  EXPECT_TRUE(holds(refusal_of("5 %", {.unit = "Pa"}), "found '5 %': the unit % is not allowed here"));
 }
 
 TEST(Units, WordsAreNoQuantities) {

@@ -17,12 +17,12 @@ TEST(Utf8, FindsTheFirstByteThatIsNone) {
   EXPECT_EQ(find_invalid_utf8("ab\xE4"
                               "cd"),
             2u);                                 // Latin-1
-  EXPECT_EQ(find_invalid_utf8("\x80"), 0u);      // no lead
-  EXPECT_EQ(find_invalid_utf8("x\xC3"), 1u);     // cut short
+  EXPECT_EQ(find_invalid_utf8("\x80"), 0u);      // continuation byte without a lead
+  EXPECT_EQ(find_invalid_utf8("x\xC3"), 1u);     // truncated
   EXPECT_EQ(find_invalid_utf8("\xC0\xAF"), 0u);  // overlong
   EXPECT_EQ(find_invalid_utf8("\xE0\x80\xAF"), 0u);
   EXPECT_EQ(find_invalid_utf8("\xF0\x80\x80\xAF"), 0u);
-  EXPECT_EQ(find_invalid_utf8("\xED\xA0\x80"), 0u);      // a surrogate
+  EXPECT_EQ(find_invalid_utf8("\xED\xA0\x80"), 0u);      // surrogate
   EXPECT_EQ(find_invalid_utf8("\xF4\x90\x80\x80"), 0u);  // beyond U+10FFFF
   EXPECT_EQ(find_invalid_utf8("\xFF"), 0u);
 }

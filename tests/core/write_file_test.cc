@@ -1,4 +1,4 @@
-// Files that are whole or absent, and nothing else touched.
+// Files are written completely or not at all, and no other file is touched.
 #include "lib/core/write_file.h"
 
 #include <fcntl.h>
@@ -43,12 +43,12 @@ TEST_F(WriteFile, JoinsPartsAndReplacesWhatWasThere) {
   const fs::path file = folder_ / "deep" / "file";
   write_file(file, {"a", "", "bc"});
   EXPECT_EQ(content(file), "abc");
-  write_lasting_file(file, {"d"});
+  write_durable_file(file, {"d"});
   EXPECT_EQ(content(file), "d");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep"), fs::directory_iterator()), 1);
 }
 
-// Of the name under which this or an earlier version writes first: a link, a file or a folder of somebody.
+// The user's links that happen to have the names of temporary files, of this or an earlier version, must stay intact.
 TEST_F(WriteFile, LeavesNeighboursOfAnyKindAlone) {
   std::ofstream(folder_ / "precious") << "kept";
   const auto names = [&](unsigned k) { return std::to_string(::getpid()) + "-" + std::to_string(k); };
@@ -64,7 +64,7 @@ TEST_F(WriteFile, LeavesNeighboursOfAnyKindAlone) {
   EXPECT_EQ(entries(), before + 1);
 }
 
-// The system takes what fits and says why no more is.
+// Limits the size of files. The system then writes the part that fits and reports EFBIG for the rest.
 class WithLimitOfSize {
  public:
   explicit WithLimitOfSize(rlim_t bytes) {

@@ -1,4 +1,4 @@
-"""What tests of the drawing tool share: a folder of their own, and the command run in it."""
+"""A test case with its own folder, in which it runs `draw`."""
 import contextlib
 import io
 import sys

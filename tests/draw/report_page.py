@@ -1,4 +1,4 @@
-"""A report's page read back, and the set-up of the tests that look at one."""
+"""Test cases for reports, and a parser of their pages."""
 import re
 import shutil
 import subprocess
@@ -22,7 +22,7 @@ EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
 
 
 class Page(HTMLParser):
-    """What a page holds, read back; keeps open elements to see that all are closed."""
+    """The content of a page; checks that all elements are closed."""
 
     def __init__(self, text):
         super().__init__()
@@ -71,7 +71,7 @@ CHROMIUM = shutil.which("chromium")
 
 
 def dom_of(path, width=1280, *more):
-    """The page after its scripts, and what the console said; `more` options of the browser."""
+    """The page after its scripts have run, and the console output; `more`: options of the browser."""
     with tempfile.TemporaryDirectory() as profile:
         done = subprocess.run(
             [CHROMIUM, "--headless", "--no-sandbox", *(more or ["--disable-gpu"]), "--disable-quic", "--no-first-run",
@@ -93,7 +93,7 @@ class OfAComparison(InAFolder):
         return page(self.read(content), self.folder)
 
     def small(self, problems=1, methods=3, points=3, **changes):
-        """Only one error measure and one clock: few figures, drawn quickly."""
+        """One error measure and one clock, so that the page has few figures."""
         content = comparison(problems, methods, points)
         for point in content["points"]:
             if point["errors"]:

@@ -1,4 +1,4 @@
-"""A matrix of two hard cases, three integrators and two variants, like one of `orthodyn stability`."""
+"""A stability.json with two cases, three integrators and two variants."""
 import json
 
 import numpy as np
@@ -51,7 +51,7 @@ def write_matrix(folder, content):
 
 
 def write_end_state(folder, trial_, positions, det_f=(1.0, 1.0)):
-    """The tiny body's nodes at `positions`."""
+    """Writes an end state of the tiny body with its nodes at `positions`."""
     place = folder / trial_["folder"]
     place.mkdir(parents=True, exist_ok=True)
     moved = np.asarray(positions) - POINTS

@@ -1,4 +1,4 @@
-"""A sweep.json as `orthodyn sweep` writes one, with values from a formula."""
+"""A sweep.json with values from a formula."""
 import itertools
 import json
 
@@ -10,12 +10,12 @@ def variable(name, numeric=True, unit="", scale="linear"):
 
 
 def sweep(levels, closed_form="2*a", combine="cartesian", **changes):
-    """`levels` by variable name; the figure f is the sum of the numbers in mm, the closed form 1 % more."""
+    """`levels`: values by variable; the metric f is the sum of the numbers in mm, the closed form 1 % more."""
     points = []
     for values in itertools.product(*levels.values()):
         value = sum(v for v in values if not isinstance(v, str)) + 1.0
         points.append({"title": ", ".join(map(str, values)), "status": "completed", "folder": f"points/{len(points)}",
-                       "values": dict(zip(levels, values)), "figures": {"f": 1e-3 * value}, "reason": None,
+                       "values": dict(zip(levels, values)), "metrics": {"f": 1e-3 * value}, "reason": None,
                        "message": None,
                        "closed_forms": {"f": 1.01e-3 * value if closed_form else None}, "frame": None,
                        "cost": {"wall_seconds": 0.1, "steps": 7}, "model": {"unknowns": 3}})
@@ -23,7 +23,7 @@ def sweep(levels, closed_form="2*a", combine="cartesian", **changes):
             "scene": "scene.yaml", "written": "2026-01-31T12:00:00Z", "missing": 0, "machine": {"processor": "x"},
             "versions": {"orthodyn": "0"}, "plots": [], "frames": None, "definitions": {"E": "1e9"},
             "variables": [variable(k, not isinstance(v[0], str)) for k, v in levels.items()],
-            "figures": [{"name": "f", "title": "deflection", "unit": "mm", "factor": 1e-3, "scale": "linear",
+            "metrics": [{"name": "f", "title": "deflection", "unit": "mm", "factor": 1e-3, "scale": "linear",
                          "closed_form": closed_form}], "points": points, **changes}
 
 

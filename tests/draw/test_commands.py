@@ -1,4 +1,4 @@
-"""tools/draw: each command writes its pictures; what is at fault is one line.
+"""tools/draw: each command writes its pictures; errors are one line.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_commands.py  (Debian's numpy, matplotlib, PIL).
 """
@@ -92,7 +92,7 @@ class Commands(InAFolder):
 
 
 class OfASmallMotion(InAFolder):
-    """The body of two tets, of an extent of 1 m, moves by 4 mm at its peak."""
+    """Two tets with an extent of 1 m and a largest displacement of 4 mm."""
     def setUp(self):
         super().setUp()
         times = [0.1 * k for k in range(11)]
@@ -117,7 +117,7 @@ class OfASmallMotion(InAFolder):
 
 
 class OfStatics(InAFolder):
-    """load_factor in place of t."""
+    """A static analysis: load_factor instead of t."""
     def setUp(self):
         super().setUp()
         self.result = write_result(self.folder / "s", [0.0, 0.25, 1.0])
@@ -164,10 +164,10 @@ class Comparisons(InAFolder):
         self.assertAlmostEqual(_difference(tables, 1, ["tip.displacement.x"]), 0.25)
 
     def test_what_cannot_be_compared_is_refused(self):
-        self.fails_with("give 2 to 4 results, found 1", "compare", self.results[0])
+        self.fails_with("2 to 4 results, found 1", "compare", self.results[0])
         for name in ("probes", "energy"):
             (self.results[1] / f"{name}.csv").unlink()
-        self.fails_with("none of probes.csv, energy.csv is in all of", "compare", *self.results)
+        self.fails_with("none of the files probes.csv, energy.csv is in all of", "compare", *self.results)
         (self.results[1] / "probes.csv").write_text("load_factor,tip.displacement.x [m]\n0,0\n1,1\n")
         self.fails_with("static", "compare", *self.results)
 
@@ -183,7 +183,7 @@ class Failures(InAFolder):
         self.fails_with("neither frames.pvd nor any of energy.csv", "all", self.folder)
         for analysis, instead in (("static", "draw load"), ("buckling", "draw modes")):
             (self.result / "run.json").write_text(f'{{"analysis": "{analysis}"}}')
-            self.fails_with(f"a {analysis} analysis has no motion, so there is no energy over time", "energy", self.result)
+            self.fails_with(f"no energy over time: a {analysis} analysis has no motion", "energy", self.result)
             self.fails_with(instead, "energy", self.result)
         (self.result / "run.json").unlink()
         self.fails_with("frames.pvd: missing", "strip", self.folder)
@@ -200,7 +200,7 @@ class Failures(InAFolder):
                         "frame", self.result, "--color", "displacment")
         self.fails_with(r"no frame 7; there are 2 frames \(0 to 1\)", "frame", self.result, "--index", 7)
         self.fails_with("invalid choice: 'fram'", "fram", self.result)
-        self.fails_with("'1;2' should be 2 numbers", "frame", self.result, "--view", "1;2")
+        self.fails_with("'1;2' is not 2 numbers", "frame", self.result, "--view", "1;2")
 
     def test_a_time_outside_of_the_run_is_refused_with_its_span(self):
         self.fails_with("no frame at the time 50 s; its frames are from 0 to 1 s", "frame", self.result, "--time", 50)
@@ -209,7 +209,7 @@ class Failures(InAFolder):
     def test_a_motion_has_no_load_path(self):
         write_curves(self.result)
         (self.result / "run.json").write_text('{"status": "completed"}')
-        self.fails_with("not a static analysis, so there is no load path; draw its probes", "load", self.result)
+        self.fails_with("not a static analysis; draw its probes", "load", self.result)
         (self.result / "run.json").unlink()
         self.fails_with("is it a static analysis", "load", self.result)
 
@@ -234,5 +234,5 @@ class Failures(InAFolder):
 
     def test_the_help_of_view_says_that_small_deflections_are_enlarged(self):
         helped = subprocess.run([TOOLS / "draw/draw", "view", "--help"], capture_output=True, text=True, check=True)
-        self.assertIn(f"where the largest deflection is below {100 * SMALL:g} % of the body as much as shows it",
+        self.assertIn(f"more if displacements are below {100 * SMALL:g} % of the body's size",
                       " ".join(helped.stdout.split()))

@@ -1,4 +1,4 @@
-"""The page of a convergence study: which figures it has, and what they say.
+"""The page of a convergence study: its diagrams and sentences.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_converge_report.py
 """
@@ -16,7 +16,7 @@ from report_page import EVIL, OfAComparison, Page  # noqa: E402
 def row(order, level, error, **changes):
     return {"order": order, "level": level, "title": "", "folder": "points/x", "status": "completed", "reason": "",
             "message": "", "unknowns": 100 * 8 ** level, "elements": 10,
-            "figures": {"f": {"value": 2 * (1 - error), "error": error, "order": 2.0 if level > 2 else None,
+            "metrics": {"f": {"value": 2 * (1 - error), "error": error, "order": 2.0 if level > 2 else None,
                               "mesh_error": 0.9 * error, "cpu_seconds": 1e-5 * 8 ** level}}, **changes}
 
 
@@ -27,7 +27,7 @@ def costs(linear, quadratic, at_most=()):
 def study(rows, **changes):
     return {"orthodyn_convergence": 1, "name": "beam", "file": "beam.yaml", "set": ["mesh.cells=[1,1,1]"],
             "written": "2026-01-31T12:00:00Z", "machine": {"processor": "x"}, "versions": {}, "ratio": 2, "target": 0.01,
-            "orders": [1, 2], "figures": [{"name": "f", "unit": "m", "limit": 2.0, "uncertainty": 1e-4, "from_order": 2,
+            "orders": [1, 2], "metrics": [{"name": "f", "unit": "m", "limit": 2.0, "uncertainty": 1e-4, "from_order": 2,
                                            "cost_of_target": costs(40.0, 0.5), "answer": "f is 2 m"}],
             "rows": rows, **changes}
 
@@ -53,14 +53,14 @@ class OfAConvergence(OfAComparison):
         self.assertIn("quadratic elements by 80 ×", text)
         self.assertEqual(page.tables[0][1][:2], ["f [m]", "2.00000 ± 0.0001"])
 
-    def test_a_sentence_comes_first_and_each_figure_has_one_plot(self):
+    def test_a_sentence_comes_first_and_each_metric_has_one_plot(self):
         text, _ = self.page_of(study(ROWS))
         self.assertIn('<p class="headline">f is 2 m</p>', text)
         self.assertEqual(text.count("<figure"), 1)
 
     def answer_of(self, cost_of_target):
-        figure = dict(study([])["figures"][0], cost_of_target=cost_of_target)
-        return self.page_of(study(ROWS, figures=[figure]))[1].tables[0][1]
+        metric = dict(study([])["metrics"][0], cost_of_target=cost_of_target)
+        return self.page_of(study(ROWS, metrics=[metric]))[1].tables[0][1]
 
     def test_elements_that_alone_reach_the_target_are_named(self):
         self.assertEqual(self.answer_of(costs(None, 0.5))[2:],
@@ -86,39 +86,39 @@ class OfAConvergence(OfAComparison):
         """Errors of 0.3, 0.02 and 0.003 of the limit."""
         rows = [row(1, level, error) for level, error in ((1, 0.3), (2, 0.02), (3, 0.003))]
         for found, value in zip(rows, (1.412345, 1.961234, 1.994123)):
-            found["figures"]["f"]["value"] = value
+            found["metrics"]["f"]["value"] = value
         text, page = self.page_of(study(rows))
         self.assertEqual([r[4] for r in page.tables[1][1:]], ["1.4", "1.96", "1.994"])
         tips = json.loads(re.search(r'id="run-data">(.*?)</script>', text).group(1))["runs"]
         self.assertEqual([tip["rows"][0] for tip in tips], [["f [m]", v] for v in ("1.4", "1.96", "1.994")])
 
     def test_without_a_limit_the_estimate_of_the_mesh_tells_the_digits(self):
-        rows = [row(1, 1, 0.0, figures={"f": {"value": 146.5551, "error": None, "order": None, "mesh_error": 0.25,
+        rows = [row(1, 1, 0.0, metrics={"f": {"value": 146.5551, "error": None, "order": None, "mesh_error": 0.25,
                                               "cpu_seconds": 1.0}})]
-        figure = dict(study([])["figures"][0], limit=None, uncertainty=None, cost_of_target=costs(None, None))
-        _, page = self.page_of(study(rows, figures=[figure]))
+        metric = dict(study([])["metrics"][0], limit=None, uncertainty=None, cost_of_target=costs(None, None))
+        _, page = self.page_of(study(rows, metrics=[metric]))
         self.assertEqual(page.tables[1][1][4], "150")
 
     def test_the_limit_has_the_digits_that_its_uncertainty_lets_be_known(self):
-        figure = dict(study([])["figures"][0], limit=2.0123456, uncertainty=0.03)
-        self.assertEqual(self.page_of(study(ROWS, figures=[figure]))[1].tables[0][1][1], "2.01 ± 0.03")
+        metric = dict(study([])["metrics"][0], limit=2.0123456, uncertainty=0.03)
+        self.assertEqual(self.page_of(study(ROWS, metrics=[metric]))[1].tables[0][1][1], "2.01 ± 0.03")
 
     def test_no_value_has_more_digits_than_the_limit(self):
-        figure = dict(study([])["figures"][0], uncertainty=0.2)
+        metric = dict(study([])["metrics"][0], uncertainty=0.2)
         rows = [row(1, 3, 1e-7)]
-        self.assertEqual(self.page_of(study(rows, figures=[figure]))[1].tables[1][1][4], "2.0")
+        self.assertEqual(self.page_of(study(rows, metrics=[metric]))[1].tables[1][1][4], "2.0")
 
     def test_meshes_that_failed_are_named_with_their_reason(self):
-        failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", figures=NONE)
+        failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", metrics=NONE)
         text, _ = self.page_of(study(ROWS[:5] + [failed]))
         self.assertIn("after 600 s", text)
         self.assertNotIn('data-p="5"', text)
 
     def test_without_any_result_it_says_so(self):
-        rows = [row(1, 1, 0.1, status="missing", unknowns=None, figures=NONE)]
-        figure = dict(study([])["figures"][0], limit=None, uncertainty=None,
+        rows = [row(1, 1, 0.1, status="missing", unknowns=None, metrics=NONE)]
+        metric = dict(study([])["metrics"][0], limit=None, uncertainty=None,
                       cost_of_target=costs(None, None))
-        text, _ = self.page_of(study(rows, figures=[figure]))
+        text, _ = self.page_of(study(rows, metrics=[metric]))
         self.assertIn("not reached", text)
 
     def test_names_are_text(self):
@@ -127,8 +127,9 @@ class OfAConvergence(OfAComparison):
 
     def test_a_damaged_file_is_one_line(self):
         self.folder.mkdir(parents=True, exist_ok=True)
-        for content, words in (("{", "not readable as JSON"), ('{"orthodyn_convergence": 2}', "format 1"),
-                               ('{"orthodyn_convergence": 1}', "missing or no such thing")):
+        for content, words in (("{", "not readable as JSON"), ('{"orthodyn_convergence": 2}', "is 2, expected 1"),
+                               ('{"orthodyn_convergence": 1}', "missing or has the wrong type"),
+                               ('{"orthodyn_convergence": 1, "figures": []}', "'figures' of an older version")):
             (self.folder / "convergence.json").write_text(content)
             code, _, err = self.run_draw(self.folder)
             self.assertNotEqual(code, 0)

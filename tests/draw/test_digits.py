@@ -1,4 +1,4 @@
-"""Numbers have as many digits as are known of them.
+"""Numbers are rounded to their known digits.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_digits.py
 """

@@ -53,7 +53,7 @@ class Clusters(unittest.TestCase):
 
 
 class OfACase(OfAComparison):
-    """Where the trials of `mirrored` ended; those of `exact` are alpha, beta (pass) and gamma (degraded)."""
+    """End states of the variant `mirrored`; in `exact` alpha and beta pass, gamma is degraded."""
 
     def setUp(self):
         super().setUp()
@@ -121,7 +121,7 @@ class OfACase(OfAComparison):
         self.assertIn("No end state: alpha (pass), beta (pass), gamma (degraded).", Page(html).text)
 
     def ends_of_eight(self, positions):
-        """The only variant has eight integrators, the k-th of which ends at positions(k)."""
+        """One variant with eight integrators; the k-th ends at positions(k)."""
         self.content = matrix(integrators=[f"i{k}" for k in range(8)], variants=["exact"])
         self.content["trials"] = [{**self.content["trials"][0], "integrator": f"i{k}", "folder": f"trials/{k}"}
                                   for k in range(8)]

@@ -1,4 +1,4 @@
-"""tools/draw modes: the shapes that bend, with their frequencies; errors are one line."""
+"""tools/draw modes: draws modes that deform the body, with their frequencies; errors are one line."""
 import contextlib
 import io
 import sys
@@ -83,7 +83,7 @@ class Modes(unittest.TestCase):
             np.testing.assert_allclose(height[0] + (share.T @ (height[1:] - height[0])), ends, atol=1e-9)
 
     def lines_of(self, values):
-        """How many faces of a plate have a nodal line; `values` at the nodes of its grid, rows along y."""
+        """Number of faces of a plate with a nodal line; `values` at the grid nodes, rows along y."""
         faces, n = [], values.shape[1]
         for j in range(values.shape[0] - 1):
             for i in range(n - 1):
@@ -103,7 +103,7 @@ class Modes(unittest.TestCase):
         self.assertEqual(drawn, 0)
 
     def test_a_nodal_line_reaches_to_where_the_body_is_held_also_on_a_fine_mesh(self):
-        """All values beside it are below two per cent of the largest, on both sides."""
+        """Values next to the line are below 2 % of the largest on both sides."""
         x, y = np.meshgrid(np.linspace(0, 1, 202), np.linspace(0, 1, 9))
         plate = np.sin(2 * np.pi * x) * np.sin(np.pi * y) ** 2
         self.assertLess(abs(plate[:, 100:102]).max(), 0.02)
@@ -131,9 +131,9 @@ class Modes(unittest.TestCase):
 
     def test_what_is_missing_is_said_in_one_line(self):
         write_modes(self.folder, [0, 0])
-        self.assertIn("all 2 modes are rigid; ask for more with -n", self.draw()[2][0])
+        self.assertIn("all 2 modes are rigid; compute more with -n", self.draw()[2][0])
         (self.folder / "modes.csv").write_text("mode,frequency [Hz]\n1,2\n")
-        self.assertIn("do not belong together", self.draw()[2][0])
+        self.assertIn("have different modes", self.draw()[2][0])
         (self.folder / "modes.pvd").unlink()
         code, _, err = self.draw()
         self.assertEqual((code, len(err)), (2, 1))

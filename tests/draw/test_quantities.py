@@ -1,4 +1,4 @@
-"""tools/draw: what colours a body, by its name.
+"""tools/draw: quantities that colour a body, by name.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_quantities.py  (Debian's numpy, matplotlib, PIL).
 """

@@ -1,4 +1,4 @@
-"""tools/draw/report: the page says what compare.json says, opens alone, and bad files are one line.
+"""tools/draw/report: the page shows the content of compare.json and opens offline.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_report.py
 """

@@ -46,10 +46,10 @@ class TheCommand(OfAComparison):
         self.fails_with("no such result folder")
         self.folder.mkdir()
         self.fails_with("compare.json: missing; `orthodyn compare")
-        self.fails_with("not readable as JSON .*line 1.*cut off", json.dumps(self.small())[:-100])
-        self.fails_with("no comparison, the key orthodyn_comparison", {"steps": 3})
-        self.fails_with("no comparison", "[1]")
-        self.fails_with("written in format 2, readable is format 1", self.small(orthodyn_comparison=2))
+        self.fails_with("not readable as JSON .*line 1.*truncated", json.dumps(self.small())[:-100])
+        self.fails_with("the key orthodyn_comparison is missing", {"steps": 3})
+        self.fails_with("the key orthodyn_comparison is missing", "[1]")
+        self.fails_with("orthodyn_comparison is 2, expected 1", self.small(orthodyn_comparison=2))
 
     def test_a_wrong_entry_is_named(self):
         content = self.small()
@@ -57,9 +57,10 @@ class TheCommand(OfAComparison):
         self.fails_with(r"points\[2\]\.method: no method 'cvode_bdff'; did you mean 'cvode_bdf'", content)
         content = self.small()
         content["points"][1]["wall"]["median"] = "fast"
-        self.fails_with(r'points\[1\]\.wall\.median: found "fast" where a number belongs', content)
-        self.fails_with(r"points: found 3 where a list", {**self.small(), "points": 3})
-        self.fails_with(r"problems\[0\]: found \"p\" where an object", {**self.small(), "problems": ["p"]})
+        self.fails_with(r'points\[1\]\.wall\.median: found "fast", expected a number', content)
+        self.fails_with("'fronts' of an older version .*'pareto_fronts'", self.small(fronts=[]))
+        self.fails_with(r"points: found 3, expected a list", {**self.small(), "points": 3})
+        self.fails_with(r"problems\[0\]: found \"p\", expected an object", {**self.small(), "problems": ["p"]})
         content = self.small()
         content["points"][1]["drift_over_time"]["t"].pop()
         self.fails_with(r"points\[1\]\.drift_over_time\.energy", content)

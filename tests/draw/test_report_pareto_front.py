@@ -1,6 +1,6 @@
-"""Comparisons across meshes: the front in the picture and in words.
+"""Comparisons across meshes: the Pareto front in the figure and in sentences.
 
-Run with  /usr/bin/python3 -m unittest tests/draw/test_report_front.py
+Run with  /usr/bin/python3 -m unittest tests/draw/test_report_pareto_front.py
 """
 import random
 import sys
@@ -12,7 +12,7 @@ TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
 from draw.report import theme  # noqa: E402
-from draw.report.front import draw_front, front_of  # noqa: E402
+from draw.report.pareto_front import draw_pareto_front, pareto_front_of  # noqa: E402
 from draw.report.layout import NARROW, WIDE  # noqa: E402
 from synthetic_comparison import comparison, completed  # noqa: E402
 from report_page import OfAComparison, Page  # noqa: E402
@@ -21,7 +21,7 @@ MEASURE = "displacement.l2"
 
 
 def across_meshes(mesh_error=1e-3):
-    """Two meshes of one scene; times and errors (s of CPU, error) are set by hand, methods in turn."""
+    """Two meshes of one scene, with prescribed (CPU time in s, error) pairs for the methods in turn."""
     content = comparison(problems=2, methods=2, points=2)
     content["points"] = [completed(problem["id"], method["id"], rtol, random.Random(1))
                          for problem in content["problems"] for method in content["methods"] for rtol in (1e-2, 1e-3)]
@@ -34,7 +34,7 @@ def across_meshes(mesh_error=1e-3):
         problem["mesh"] = mesh
         problem["reference"].update(mesh_error=mesh_error, unknowns=12345)
     words = "at 10 %: coarse, cvode_bdf, rtol 0.001, 3 s; quadratic elements need 5 s"
-    content.update(answers=[], orders=[], fronts=[{
+    content.update(answers=[], orders=[], pareto_fronts=[{
         "id": "beam", "label": "beam", "problems": [p["id"] for p in content["problems"]], "points": [0, 1, 4, 6],
         "answers": [{"target": 0.1, "point": 1, "seconds": 3, "words": words}]}])
     return content
@@ -44,15 +44,15 @@ class TheFront(OfAComparison):
     def test_no_point_of_it_is_beaten_in_both_and_unresolved_errors_are_not_told_apart(self):
         read = self.read(across_meshes())
         # (9 s, 1.2e-3) and (8 s, 1.8e-3) lie below 2 x 1e-3 + 10 x 1e-8: the faster one stands for both.
-        self.assertEqual([p.index for _, _, p in front_of(read, read.fronts[0], MEASURE, "cpu")], [0, 1, 4, 6])
+        self.assertEqual([p.index for _, _, p in pareto_front_of(read, read.pareto_fronts[0], MEASURE, "cpu")], [0, 1, 4, 6])
         finer = self.read(across_meshes(mesh_error=1e-5))
-        self.assertEqual([p.index for _, _, p in front_of(finer, finer.fronts[0], MEASURE, "cpu")],
+        self.assertEqual([p.index for _, _, p in pareto_front_of(finer, finer.pareto_fronts[0], MEASURE, "cpu")],
                          [0, 1, 4, 6, 5])
 
     def test_a_colour_is_a_mesh_and_a_marker_a_method(self):
         read = self.read(across_meshes())
         for width in (WIDE, NARROW):
-            axes = draw_front(read, read.fronts[0], MEASURE, "cpu", width).figure.axes[0]
+            axes = draw_pareto_front(read, read.pareto_fronts[0], MEASURE, "cpu", width).figure.axes[0]
             marks = {line.get_gid(): line for line in axes.lines if (line.get_gid() or "").startswith("pt-")}
             for point in read.points:
                 mesh, method = int(point.problem == read.problems[1].id), read.method_index(point.method)
@@ -70,7 +70,7 @@ class TheFront(OfAComparison):
 
     def test_a_front_of_no_known_error_says_so(self):
         content = across_meshes()
-        content["fronts"][0].update(points=[], answers=[])
+        content["pareto_fronts"][0].update(points=[], answers=[])
         for problem in content["problems"]:
             problem["reference"]["mesh_error"] = None
         self.assertIn("no error is resolved, so nothing is concluded", Page(self.html(content)).text)

@@ -1,4 +1,4 @@
-"""The small pieces that a report is made of: numbers in words, scales, markup.
+"""Building blocks of reports: number formats, scales, markup.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_report_pieces.py
 """

@@ -1,4 +1,4 @@
-"""tools/draw: bodies are drawn where they are, deformed, in one window and range of colours.
+"""tools/draw: bodies are drawn at their deformed positions, with a common window and colour range.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_scene.py  (Debian's numpy, matplotlib, PIL).
 """

@@ -1,4 +1,4 @@
-"""tools/draw/stability: the page says what stability.json says, with and without end states.
+"""tools/draw/stability: the page shows the content of stability.json, with and without end states.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_stability.py
 """
@@ -107,7 +107,7 @@ class ThePage(OfAMatrix):
         content = matrix()
         content["trials"][1] = trial("mirrored", "exact", "beta", "fail", worst=worst(computed=None),
                                      reason="time limit")
-        table = next(t for t in self.parsed(content).tables if "Worst figure" in t[0])
+        table = next(t for t in self.parsed(content).tables if "Worst expectation" in t[0])
         self.assertEqual(len(table) - 1, sum(t["grade"] != "pass" for t in content["trials"]))
         self.assertEqual(table[1], ["mirrored", "exact", "beta", "fail", "drift of energy.balance", "not finite", "0",
                                     "1e-2", "1", "0.250", "time limit"])
@@ -162,8 +162,8 @@ class TheCommand(OfAMatrix):
         self.assertTrue(all(Path(path).stat().st_size > 1000 for path in out))
 
     def test_a_wrong_entry_is_named(self):
-        for pattern, changes in ((r'"kind" is not "stability"', {"kind": "sweep"}),
-                                 (r"trials: found 3 where a list.*`orthodyn stability` writes it anew", {"trials": 3}),
+        for pattern, changes in ((r'kind is "sweep", expected "stability"', {"kind": "sweep"}),
+                                 (r"trials: found 3, expected a list.*`orthodyn stability`", {"trials": 3}),
                                  (r"trials\[0\]\.grade: no grade 'passed'; did you mean 'pass'",
                                   {"trials": [trial(CASES[0], VARIANTS[0], INTEGRATORS[0], "passed")]})):
             write_matrix(self.folder, matrix(**changes))

@@ -1,4 +1,4 @@
-"""tools/draw: the surface of a body, how it is split, and from where it is seen.
+"""tools/draw: surface, splitting of faces, and camera.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_surface.py  (Debian's numpy, matplotlib, PIL).
 """

@@ -1,4 +1,4 @@
-"""tools/draw: numbers with units, labels of times, names beside curves.
+"""tools/draw: units, time labels, and labels of curves.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_units.py  (Debian's numpy, matplotlib, PIL).
 """

@@ -1,4 +1,4 @@
-"""What the page of a 3D view holds equals what the frames hold.
+"""The data in the page of a 3D view equals that of the frames.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_view.py  (Debian's numpy, matplotlib).
 """
@@ -15,12 +15,11 @@ import numpy as np  # noqa: E402
 
 from folder_test import TOOLS  # noqa: E402
 from tiny_result import POINTS, Vtu, fields_at, write_result  # noqa: E402
-from view_page import OfAResult, unpacked, values_of  # noqa: E402
+from view_page import OfAResult, page, unpacked, values_of  # noqa: E402
 
 from draw.view.blocks import Blocks  # noqa: E402
 from draw.view.bundle import digest  # noqa: E402
 from draw.view.collect import Extent  # noqa: E402
-from draw.view.page import page  # noqa: E402
 from draw.view.skin import Skin  # noqa: E402
 from draw.vtu import Frame  # noqa: E402
 

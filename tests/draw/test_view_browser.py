@@ -1,4 +1,4 @@
-"""The 3D view in a browser: its script shows what the page holds, and its controls do what they say.
+"""The 3D view in a browser: its script shows the data of the page, and its controls work.
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_view_browser.py  (Debian's numpy, matplotlib, PIL, chromium).
 """
@@ -17,10 +17,9 @@ from PIL import Image  # noqa: E402
 
 from report_page import CHROMIUM, dom_of  # noqa: E402
 from tiny_result import POINTS, Vtu, fields_at, write_result  # noqa: E402
-from view_page import OfAResult  # noqa: E402
+from view_page import OfAResult, page  # noqa: E402
 
 from draw.view.collect import Extent  # noqa: E402
-from draw.view.page import page  # noqa: E402
 
 GPU = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--virtual-time-budget=20000")
 
@@ -104,7 +103,7 @@ class InABrowser(OfAResult):
 
 
     def probed(self, text, script, width=1400):
-        """What `script`, which has the view, returns; nothing is said on the console."""
+        """Runs `script` with access to the view; returns its result. Fails on console output."""
         probe = """<script>orthodynView.then(async view => {
             const wait = (n) => new Promise(f => setTimeout(f, n)), query = (s) => document.querySelector(s);
             const print = () => { let h = 0; for (const c of query("canvas").toDataURL()) h = (h * 31 + c.charCodeAt(0)) | 0; return h; };
@@ -245,7 +244,7 @@ class InABrowser(OfAResult):
 
 
     def test_chooses_what_is_shown(self):
-        """Of three results two; what was chosen for the picture stays."""
+        """Shows two of three results; display options are kept."""
         late = write_result(self.folder / "late", [0.0, 0.5, 1.0])
         other = write_result(self.folder / "other", self.times)
         text = page([self.result, other, late], Extent(), {"color": "det_f"})

@@ -18,10 +18,9 @@ from synthetic_comparison import comparison as a_comparison  # noqa: E402
 from synthetic_matrix import matrix, write_end_state, write_matrix  # noqa: E402
 from synthetic_sweep import sweep, write_frames  # noqa: E402
 from tiny_result import POINTS, TETS, Vtu, fields_at, write_result  # noqa: E402
-from view_page import unpacked, values_of  # noqa: E402
+from view_page import page, unpacked, values_of  # noqa: E402
 
 from draw.view.collect import Extent  # noqa: E402
-from draw.view.page import page  # noqa: E402
 
 
 class OfAStudy(InAFolder):
@@ -33,7 +32,7 @@ class OfAStudy(InAFolder):
         comparison = a_comparison(problems=2, methods=2, points=1)
         comparison["problems"][0]["reference"]["folder"] = "references/a"
         (self.folder / "compare.json").write_text(json.dumps(comparison), encoding="utf-8")
-        self.fails_with("no point kept frames; name `frames: {}`", "view", self.folder)
+        self.fails_with("no point kept frames; add `frames: {}`", "view", self.folder)
         times = [0.0, 0.5, 1.0]
         write_result(self.folder / "references/a", times)
         point = comparison["points"][0]
@@ -51,7 +50,7 @@ class OfAStudy(InAFolder):
         self.assertEqual(unit, "m")
 
     def comparison(self, problems=1):
-        """With a reference at three times; returns the folders of its points."""
+        """A comparison with a reference at three times; returns the folders of its points."""
         content = a_comparison(problems=problems, methods=2, points=1)
         content["problems"][0]["reference"]["folder"] = "references/a"
         (self.folder / "compare.json").write_text(json.dumps(content), encoding="utf-8")
@@ -112,7 +111,7 @@ class OfAStudy(InAFolder):
     def test_of_hard_cases_holds_the_end_states_that_differ(self):
         content = matrix()
         write_matrix(self.folder, content)
-        self.fails_with("no trial has left an end state", "view", self.folder)
+        self.fails_with("no trial has an end state", "view", self.folder)
         of_case = [t for t in content["trials"] if t["case"] == "mirrored"]
         for t in of_case:
             write_end_state(self.folder, t, (2 if t["integrator"] == "gamma" else 1) * POINTS)

@@ -1,4 +1,4 @@
-"""A result folder of two tets, written as `orthodyn run` writes one."""
+"""A result folder of two tets, in the format of `orthodyn run`."""
 import struct
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Pages of the 3D view for its tests: a result to show, and what a page holds."""
+"""Test case for pages of the 3D view, and a decoder of their data."""
 import base64
 import gzip
 import html
@@ -11,7 +11,12 @@ from folder_test import InAFolder
 from tiny_result import write_curves, write_result
 
 from draw.view.collect import Extent
-from draw.view.page import page
+from draw.view import page as view_page
+from draw.view_sources import sources_of
+
+
+def page(results, extent, start=None):
+    return view_page.page(sources_of(results), extent, start)
 
 
 def unpacked(text):
@@ -23,7 +28,7 @@ def unpacked(text):
 
 
 def values_of(block):
-    """Rows, as web/src/blocks.ts has them."""
+    """Values as rows, as in web/src/blocks.ts."""
     about, raw = block
     planes = np.frombuffer(raw, {"u32": "<u4", "f32": "<f4", "linear": "<u2", "half": "<f2"}[about["kind"]])
     rows = planes.reshape(about["components"], -1).T.astype(float)

@@ -1,6 +1,7 @@
-// A full C that is an orthotropic one seen from other axes: every law must give what it gives for the
-// nine constants in their own axes. With A the axes of the nine constants in the frame of the full C and
-// Q that frame in space, F^ = F Q for the one is F^ A for the other, and so are P^ and dF^.
+// A full matrix C (21 constants) that describes an orthotropic material in rotated axes. Every law must give the same
+// results as with the nine constants in their own axes. Q: axes of the full C in space. A: axes of the nine constants,
+// relative to Q. A gradient F^ = F Q for the full C corresponds to F^ A for the nine constants; stress and rate
+// transform alike.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -18,11 +19,11 @@ constexpr double kBeta = 0.3;
 const OrthotropicStiffness kNine = stiffness(spruce());
 const AnisotropicStiffness kFull = turned(kNine, kA);
 
-// Regular, flat, inverted, in the zone of the blend, and beyond it.
+// Principal stretches: regular, flat, inverted, within the zone of the blend, and close to the singular set.
 const std::vector<Vec3> kStretches{{1.6, 1, 0.6},    {1.05, 1, 0.98},  {1.2, 0.7, 0},
                                    {1.2, 0.7, -0.1}, {1.1, 0.8, -0.7}, {1.1, 0.8, -0.8 + 1e-3}};
 
-// Calls check(law of the nine constants, law of the full C) for every law there is.
+// Calls check(law of the nine constants, law of the full C) for every law.
 template <class Check>
 void for_each_law(Check&& check) {
   check(CorotationalLaw(kNine), CorotationalLaw(kFull));
@@ -31,7 +32,8 @@ void for_each_law(Check&& check) {
   check(LinearLaw(kNine), LinearLaw(kFull));
 }
 
-// Calls check(F^ of the full C) in states of all kinds; `reach` = 1 / (s2 + s3) bounds what errors grow by.
+// Calls check(F^ of the full C, random matrix, reach) in states of all kinds. reach = 1 / (s2 + s3) bounds the
+// amplification of errors.
 template <class Check>
 void for_each_state(Check&& check) {
   Random random(82);

@@ -1,4 +1,4 @@
-// The identities behind the corotational derivation.
+// Identities of axial vectors and cross matrices, on which the corotational laws are based.
 #include "lib/element/axial.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A batch of elements gives what the elements give one by one, and knows which lanes it cannot do.
+// A batch of elements gives the same results as its elements one by one, and reports the lanes that it cannot evaluate.
 #include <gtest/gtest.h>
 
 #include "lib/element/corotational_law.h"
@@ -12,7 +12,7 @@ namespace {
 const OrthotropicStiffness kStiff{12, 5, 3, 2, 1, 1.5, 2, 1, 1.2};
 const Mat3 kAxes = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 
-// Deformation gradients around a random rotation; lane `inverted` is turned inside out.
+// F Q with F close to a random rotation, Q = kAxes. The element of lane `inverted` is inverted; -1: none.
 std::array<Mat3, Batch::kLanes> states(double strain, int inverted = -1) {
   std::array<Mat3, Batch::kLanes> out;
   std::srand(7);
@@ -35,7 +35,7 @@ Mat3T<Batch> pack(const std::array<Mat3, Batch::kLanes>& lanes) {
   return all;
 }
 
-// (F - I) Q of lanes of F Q.
+// Converts F Q to (F - I) Q, the argument of the laws.
 Mat3T<Batch> pack_gradients(std::array<Mat3, Batch::kLanes> lanes) {
   for (Mat3& F : lanes) F -= kAxes;
   return pack(lanes);
@@ -107,7 +107,8 @@ TEST(Batch, OfMeanStressesEqualsThoseOfItsElements) {
   }
 }
 
-// Also a flattened one: its energy is not blended, but it may have come from either side.
+// A flattened element (det F = 0) must be reported, too. Its energy is not blended, but mean stresses need det F > 0 at
+// both ends.
 TEST(Batch, OfMeanStressesLeavesALaneThatIsInvertedAtEitherEnd) {
   const CorotationalLaw law(kStiff);
   auto flat = states(0.1);

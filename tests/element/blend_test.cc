@@ -1,4 +1,4 @@
-// The passage of an anisotropic energy into the nearest isotropic one across inversion.
+// The blend of an anisotropic energy into the nearest isotropic one, when an element inverts.
 #include "lib/element/blend.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(Blend, LiesBetweenZeroAndOne) {
   }
 }
 
-// Inverted, and not inverted but thin.
+// Principal stretches with 0 < chi < 1: two inverted elements and a thin one that is not inverted.
 const Vec3 kZone[] = {{1.1, 0.8, -0.7}, {0.5, 0.4, -0.2}, {1, 0.03, 0.02}};
 
 TEST(Blend, GradientIsTheDerivativeOfChi) {
@@ -69,7 +69,7 @@ TEST(Blend, GradientIsTheDerivativeOfChi) {
   }
 }
 
-// Along s3 of (1.1, 0.8, s3): q = 1 at some s3; there 1 - chi ~ (1 - q)^3 and its slope ~ (1 - q)^2.
+// Varies s3 of the stretches (1.1, 0.8, s3). Where q reaches 1, 1 - chi ~ (1 - q)^3 and dchi/dS ~ (1 - q)^2.
 TEST(Blend, EndsWithTwoContinuousDerivatives) {
   double low = -0.7, high = -0.1;
   for (int i = 0; i < 60; ++i) {
@@ -87,7 +87,8 @@ TEST(Blend, KeepsTheStressBoundedAroundTheSingularSet) {
   Random random(31);
   const auto C = fibre(100);
   const CorotationalLaw law(C);
-  // Nothing above what C makes of the strain (0.1, 0.2, 1.8); without the blend: 29 / (s2 + s3).
+  // Bound: the largest eigenvalue of C times the norm of the strain (0.1, -0.2, -1.8). Without the blend the stress
+  // would grow as 29 / (s2 + s3).
   const double stiffest = symmetric_eigenvalues(mandel(voigt(C)))[5];
   const double bound = stiffest * Vec3(0.1, 0.2, 1.8).norm();
   for (double rho = 0.3; rho > 1e-14; rho *= 0.5)

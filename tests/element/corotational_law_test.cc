@@ -10,9 +10,9 @@
 namespace orthodyn::corotational_law_test {
 namespace {
 
-const Mat3 kQ = Random(20).rotation();  // material axes; F is F Q below
+const Mat3 kQ = Random(20).rotation();  // material axes; F below denotes F Q
 
-// Regular, flat, inverted, and inverted in the zone of the blend.
+// Principal stretches: regular, flat, inverted with chi = 1, and inverted within the zone of the blend.
 const std::vector<Vec3> kStretches{{1.6, 1, 0.6},    {1.05, 1, 0.98},  {1.2, 0.7, 0},
                                    {1.2, 0.7, -0.1}, {1.2, 0.7, -0.4}, {1.1, 0.8, -0.7}};
 
@@ -54,7 +54,7 @@ TEST(CorotationalLaw, TheStretchesOfTheseTestsReachIntoTheBlend) {
   EXPECT_LT(chi(kStretches.back()), 1);
 }
 
-// (V^T R^T P V)_jk = sigma_jk 2 s_j / (s_j + s_k) in the eigenframe of S.
+// (V^T R^T P V)_jk = sigma_jk 2 s_j / (s_j + s_k), with the eigenvectors V and eigenvalues s of S.
 TEST(CorotationalLaw, StressInTheEigenframeIsSigmaTimesTheRatioOfStretches) {
   Random random(22);
   const auto C = fibre(100);

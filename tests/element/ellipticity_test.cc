@@ -1,4 +1,4 @@
-// Where the corotational law loses strong ellipticity: a fibre under uniaxial stress.
+// Strains at which the corotational law loses strong ellipticity, for fibres under uniaxial stress.
 #include <gtest/gtest.h>
 
 #include "lib/element/corotational_law.h"
@@ -7,7 +7,8 @@
 namespace orthodyn::ellipticity_test {
 namespace {
 
-// Fibre along axis 1, stretched by e under uniaxial stress: d2Psi of dF = i x j against the formulas.
+// A fibre along axis 1 with axial strain e under uniaxial stress. curvature(i, j): second derivative of the energy in
+// the direction e_i e_j^T. kink() and slide(): its closed forms for (1, 0) and (0, 1).
 class Fibre {
  public:
   Fibre(double ratio, double e)
@@ -37,9 +38,9 @@ TEST(Ellipticity, CurvaturesOfAStretchedFibreAreThoseOfTheFormulas) {
 }
 
 TEST(Ellipticity, IsLostByKinkingAtTheCompressiveLimit) {
-  EXPECT_GT(Fibre(10, -0.215).curvature(1, 0), 0);  // limits to two digits: -22 %
+  EXPECT_GT(Fibre(10, -0.215).curvature(1, 0), 0);  // limit: -22 %, to two digits
   EXPECT_LT(Fibre(10, -0.225).curvature(1, 0), 0);
-  EXPECT_GT(Fibre(100, -0.0655).curvature(1, 0), 0);  // -6.6 %
+  EXPECT_GT(Fibre(100, -0.0655).curvature(1, 0), 0);  // limit: -6.6 %
   EXPECT_LT(Fibre(100, -0.0665).curvature(1, 0), 0);
 }
 

@@ -1,4 +1,4 @@
-// Small strain: a quadratic energy with a constant tangent.
+// The small-strain law: its energy is quadratic and its tangent constant.
 #include "lib/element/linear_law.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The equation S X + X S = B: solved as well as S lets.
+// Solutions of the equation S X + X S = B are as accurate as the condition of S allows.
 #include "lib/element/lyapunov.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ const std::vector<Vec3>& stretches() {
   return all;
 }
 
-// The residual is round-off of its terms, however S is conditioned.
+// The residual is of the order of round-off in S X, for any condition number of S.
 TEST(Lyapunov, EquationHolds) {
   Random random(3);
   for (const Vec3& values : stretches())

@@ -1,4 +1,4 @@
-// The tangent of the corotational law with a stress of its own.
+// The mixed tangent of the corotational law: its geometric part uses a stress predicted from an earlier state F0.
 #include <gtest/gtest.h>
 
 #include "lib/element/corotational_law.h"
@@ -28,8 +28,9 @@ TEST(MixedTangent, IsTheExactOneWhereNothingHasMoved) {
   }
 }
 
-// Without the Gauss-Newton part it is the second derivative of sigma : S(F) for the fixed stress
-// sigma = C (S0 - I + dS0), whose gradient is R (sigma + [c]).
+// The mixed tangent minus its Gauss-Newton part is the second derivative of sigma : S(F) by F, for the fixed stress
+// sigma = C (S0 - I + dS0) with S0 = S(F0) and dS0 its derivative in the direction F - F0. The first derivative is
+// R (sigma + [c]) with the cross matrix [c].
 template <class C>
 void expect_second_derivative(const C& stiffness) {
   Random random(43);

@@ -1,4 +1,4 @@
-// The analytic continuation of the polar decomposition, which all complex-step tests rest on.
+// The analytic continuation of the polar decomposition, on which all complex-step tests are based.
 #include <gtest/gtest.h>
 
 #include "lib/element/polar.h"

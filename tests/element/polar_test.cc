@@ -1,4 +1,4 @@
-// Polar decomposition over kinds of deformation from regular to degenerate.
+// The polar decomposition F = R S for deformations from regular to degenerate.
 #include "lib/element/polar.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Kind {
 
 class PolarOf : public testing::TestWithParam<Kind> {
  protected:
-  // Calls check(F, polar of F) on some states of the kind.
+  // Calls check(F, polar decomposition of F) for random states with the tested stretches.
   template <class Check>
   void for_each(Check check) const {
     Random random(5);
@@ -65,7 +65,7 @@ TEST_P(PolarOf, TheAxialVectorOfRTransposedFVanishesForEachKind) {
   });
 }
 
-// Among all rotations R maximises tr(R^T F), whose maximum is s1 + s2 + s3.
+// R maximises tr(R^T F) over all rotations. The maximum is s1 + s2 + s3.
 TEST_P(PolarOf, RIsTheNearestRotationForEachKind) {
   for_each([](const Mat3&, const Polar<double>& p) {
     const Vec3& s = GetParam().s;

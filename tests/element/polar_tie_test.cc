@@ -1,4 +1,4 @@
-// Where R is not unique all elements must fall the same way, whatever the round-off.
+// Where R is not unique, the choice of R must not depend on round-off, so that all elements choose alike.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace orthodyn::polar_tie_test {
 namespace {
 
-// Mirror images of the unit element in one direction and in all; line and point.
+// F without a unique R: mirrored along one axis or all, mirrored and stretched, collapsed to a line, to a point.
 const std::vector<Mat3> kTied{Mat3(Vec3(-1, 1, 1).asDiagonal()),
                               Mat3(Vec3(1, -1, 1).asDiagonal()),
                               Mat3(-Mat3::Identity()),
@@ -30,7 +30,7 @@ TEST(PolarTie, OfAPointIsTheTieItself) {
 TEST(PolarTie, IsBrokenTheSameWayUnderRoundOffNoise) {
   Random random(10);
   for (const Mat3& F : kTied) {
-    if (F.isZero()) continue;  // noise is all there is
+    if (F.isZero()) continue;  // only noise would be left
     const Mat3 R = polar(F, Mat3::Identity()).R;
     for (int sample = 0; sample < 50; ++sample) {
       const Mat3 noisy = F + 1e-14 * random.matrix();
@@ -48,7 +48,7 @@ TEST(PolarTie, IsBrokenInSpaceAndNotInMaterialAxes) {
 }
 
 TEST(PolarTie, OfAMirroredElementKeepsTheRotationNearestToTheTie) {
-  // Identity is among the maximisers of tr(R^T diag(-1, 1, 1)), so it is the nearest.
+  // The identity is the tie and one of the maximisers of tr(R^T diag(-1, 1, 1)), so it is the nearest one.
   EXPECT_LE((polar(kTied[0], Mat3::Identity()).R - Mat3::Identity()).norm(), 16 * kEps);
 }
 

@@ -1,4 +1,4 @@
-// Deformation gradients with given principal stretches, stiffnesses, and complex-step derivatives.
+// For tests: deformation gradients with given principal stretches, stiffnesses, and complex-step derivatives.
 #pragma once
 
 #include <complex>
@@ -11,29 +11,30 @@ namespace orthodyn {
 using Complex = std::complex<double>;
 using CMat3 = Mat3T<Complex>;
 
+// F = R S.
 struct Deformation {
-  Mat3 R, V;  // rotation; principal axes as columns
-  Vec3 s;     // principal stretches, signed, s1 >= s2 >= |s3|
+  Mat3 R, V;  // rotation; principal axes of S as columns
+  Vec3 s;     // signed principal stretches, s1 >= s2 >= |s3|
   Mat3 S() const { return V * s.asDiagonal() * V.transpose(); }
   Mat3 F() const { return R * S(); }
 };
 
 Deformation random_state(Random& random, const Vec3& stretches);
 
-// Principal stretches within 1 +- strain.
+// A random state with principal stretches from 1 - strain to 1 + strain.
 Deformation random_strain(Random& random, double strain);
 
-// Young's moduli ratio, 1, 1.
+// A fibre along axis 1, with the Young's moduli (ratio, 1, 1).
 OrthotropicStiffness fibre(double ratio);
 
-// The same material in axes of which A are its own: all 21 constants.
+// The same material in other axes, as 21 constants. The columns of A are the axes of C in the new ones.
 AnisotropicStiffness turned(const OrthotropicStiffness& C, const Mat3& A);
 
 inline constexpr IsotropicStiffness kIsotropic{0.6, 0.4};
 
 inline constexpr double kComplexStep = 1e-60;
 
-// Derivative of f at F in the direction dF; f takes and returns a complex matrix.
+// The derivative of f at F in the direction dF, by a complex step. f maps a complex matrix to a complex matrix.
 template <class Function>
 Mat3 derivative(const Function& f, const Mat3& F, const Mat3& dF) {
   const CMat3 stepped = F.cast<Complex>() + Complex(0, kComplexStep) * dF.cast<Complex>();
@@ -42,7 +43,7 @@ Mat3 derivative(const Function& f, const Mat3& F, const Mat3& dF) {
 
 Mat3 unit_matrix(int k);
 
-// The columns are the derivatives with respect to F11, F21, F31, F12, ...
+// The Jacobian of f. Its columns are the derivatives with respect to F11, F21, F31, F12, ...
 template <class Function>
 Mat9 jacobian(const Function& f, const Mat3& F) {
   Mat9 J;
@@ -66,7 +67,7 @@ Mat3 energy_gradient(const Law& law, const Mat3& F, const Mat3& Q) {
   return P;
 }
 
-// The form as a matrix on dF instead of R^T dF.
+// The quadratic form as a matrix that acts on dF (in space) instead of on R^T dF.
 template <class C>
 Mat9 in_space(const TangentFormOf<C>& form) {
   Mat9 R = Mat9::Zero();
@@ -76,10 +77,10 @@ Mat9 in_space(const TangentFormOf<C>& form) {
 
 double asymmetry(const Mat9& H);
 
-// Relative to the largest eigenvalue; H symmetric.
+// The smallest eigenvalue of the symmetric H, divided by its largest one.
 double smallest_eigenvalue(const Mat9& H);
 
-// |skew(P F^T)| / |P F^T|: the torque that a stress exerts.
+// |skew(P F^T)| / |P F^T|: the relative torque that a stress exerts; 0 if angular momentum is conserved.
 double torque_fraction(const Mat3& P, const Mat3& F);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Strains and stresses of small displacements are right to a few ulp of themselves.
+// Strains and stresses of small displacements have relative errors of a few ulp.
 #include <gtest/gtest.h>
 
 #include "lib/element/linear_law.h"
@@ -10,8 +10,8 @@ namespace {
 
 const Mat3 kQ = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 
-// (F - I) Q of F = R (I + e), with R the rotation by the angle |w| about w, to a few ulp of w and e; e and w in
-// material axes.
+// (F - I) Q for F = R (I + e), where R is the rotation by the angle |w| about w. e and w are in material axes. The
+// result is accurate to a few ulp of w and e.
 Mat3 gradient_of(const Mat3& e, const Vec3& w) {
   const double angle = w.norm(), half = std::sin(angle / 2);
   const Mat3 W = cross_matrix<double>(w / angle);
@@ -33,7 +33,7 @@ TEST(StretchStrain, OfSmallMotionsIsRightToAFewUlpOfThem) {
     }
 }
 
-// Where the strain is not small, S - I loses nothing, and S^2 - I would.
+// For large strains the strain must be computed as S - I, without cancellation. S^2 - I would lose digits.
 TEST(StretchStrain, OfLargeStretchesIsRightToAFewUlp) {
   Random random(62);
   for (const Vec3& s : {Vec3(1e6, 2, 0.1), Vec3(3, 1, 1e-8), Vec3(2, 1, -0.5), Vec3(1, 0.9, -0.8)}) {
@@ -73,7 +73,7 @@ TEST(StretchStrain, OfABatchIsThatOfItsLanes) {
   }
 }
 
-// Where strains vanish beside one, every law is sigma = C e.
+// For strains below round-off of 1 every law must reduce to sigma = C e.
 template <class Law, class C>
 void expect_small_stress(const Law& law, const C& stiffness) {
   Random random(64);

@@ -11,7 +11,7 @@ namespace {
 
 const Mat3 kQ = Random(33).rotation();
 
-// Untouched by the blend: regular, flat and a little inverted.
+// Principal stretches with chi = 1 (no blend): regular, flat and slightly inverted.
 const std::vector<Vec3> kRegular{{1.6, 1, 0.6}, {1.05, 1, 0.98}, {1.2, 0.7, 0}, {1.2, 0.7, -0.1}};
 const std::vector<Vec3> kBlended{{1.2, 0.8, -0.6}, {1.1, 0.8, -0.7}, {1.1, 0.8, -0.8}, {1, 0.03, 0.02}, {0, 0, 0}};
 
@@ -91,7 +91,7 @@ TEST(GaussNewtonTangent, EqualsTheExactOneAtARotation) {
   EXPECT_LE(difference.norm(), 64 * kEps * voigt(C).norm());
 }
 
-// dS : C : dS with dS from the polar decomposition of a complex step.
+// The form must be dS : C : dS, with dS by a complex step through the polar decomposition.
 TEST(GaussNewtonTangent, IsTheStiffnessOfTheRateOfStretch) {
   Random random(39);
   const auto C = fibre(100);

@@ -75,7 +75,8 @@ TEST(Tet10, SlopesAreThoseOfTheShapeFunctions) {
     Eigen::Vector4d along = Eigen::Vector4d::Zero();
     along[0] = -1e-4;
     along[i + 1] = 1e-4;
-    const Tet10::Values difference = (Tet10::shape(L + along) - Tet10::shape(L - along)) / 2e-4;  // exact: quadratic
+    // Exact, because shape functions are quadratic.
+    const Tet10::Values difference = (Tet10::shape(L + along) - Tet10::shape(L - along)) / 2e-4;
     EXPECT_LE((difference - Tet10::shape_slopes(L).col(i)).norm(), 1e-11);
   }
 }
@@ -86,7 +87,7 @@ TEST(Tet10, OfAQuadraticFieldHasItsGradientInMaterialAxes) {
     const Nodes X = random_straight(random);
     const Mat3 Q = random.rotation(), A = random.matrix(), B = random.matrix();
     const Vec3 c = random.vector();
-    // u = A X + (c . X) B X, with the gradient A + (c . X) B + B X c^T.
+    // The field u = A X + (c . X) B X has the gradient A + (c . X) B + B X c^T.
     Nodes u;
     for (Eigen::Index a = 0; a < 10; ++a) u.col(a) = A * X.col(a) + c.dot(X.col(a)) * (B * X.col(a));
     for (int p = 0; p < Tet10::kPoints; ++p) {
@@ -116,8 +117,9 @@ TEST(Tet10, PointsShareTheVolumeOfStraightEdges) {
   EXPECT_NEAR(Tet10::mass(X, 3), 3 * volume, 1e-14);
 }
 
-// M = m/420 times: corners 6 and 1, corner to its edges -4, to the others -6, middles 32, 16 where they share a corner,
-// else 8.
+// Entries of 420 M / m, with the mass matrix M and the mass m. Two corners: 6 if they are equal, else 1. A corner and
+// an edge node: -4 if the corner is on the edge, else -6. Two edge nodes: 32 if they are equal, 16 if their edges share
+// a corner, else 8.
 TEST(Tet10, HasTheConsistentMassOfStraightEdges) {
   Random random(404);
   const Nodes X = random_straight(random);
@@ -163,7 +165,7 @@ TEST(Tet10, LumpedEnergyExceedsConsistentByNoMoreThanItSays) {
   EXPECT_NEAR(1 / symmetric_eigenvalues(scaled)[0], Tet10::kLumpedToConsistent, 1e-10);
 }
 
-// V = integral of det dX/dL, by a rule of another kind.
+// Computes the volume, the integral of det dX/dL, by a midpoint rule that is independent of the element's points.
 TEST(Tet10, HasTheMassOfItsCurvedShape) {
   Random random(407);
   const Nodes X = random_curved(random);
@@ -172,7 +174,7 @@ TEST(Tet10, HasTheMassOfItsCurvedShape) {
   for (int i = 0; i < kParts; ++i)
     for (int j = 0; j < kParts - i; ++j)
       for (int k = 0; k < kParts - i - j; ++k) {
-        // A cube of the grid, or its part below the inclined face: one, five or six sixths of a cube.
+        // A cube of the grid, or the part of it inside the tetrahedron: six, five or one sixth of the cube.
         const int rest = kParts - i - j - k;
         const double part = rest >= 3 ? 1 : rest == 2 ? 5.0 / 6 : 1.0 / 6;
         const double middle = rest >= 3 ? 0.5 : rest == 2 ? 0.45 : 0.25;

@@ -8,7 +8,7 @@
 namespace orthodyn::tet4_test {
 namespace {
 
-// Edges of a tet of positive volume.
+// Edge vectors of a random tetrahedron of positive volume.
 Mat3 random_edges(Random& random) {
   for (;;) {
     const Mat3 edges = random.matrix();
@@ -39,7 +39,7 @@ TEST(Tet4, NodeForcesDoTheWorkOfTheStress) {
   Random random(18);
   const Mat3 edges = random_edges(random), Q = random.rotation(), P = random.matrix(), rate = random.matrix();
   const auto tet = Tet4::point(0, edges, Q);
-  const double power = contract<double>(tet.node_forces(P), rate);  // node 0 at rest
+  const double power = contract<double>(tet.node_forces(P), rate);  // node 0 does not move
   const double expected = -tet.volume * contract<double>(P, tet.gradient(rate));
   EXPECT_NEAR(power, expected, 64 * kEps * tet.volume * P.norm() * tet.B.norm() * rate.norm());
 }

@@ -1,4 +1,4 @@
-// Faces: the rule of the triangle, and what linear and quadratic triangles make of it.
+// Faces: the quadrature rule of the triangle, and integrals over linear and quadratic triangles.
 #include "lib/element/tri3.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ using Scalar = Eigen::Matrix<double, 1, 1>;
 
 TEST(Tri3, NodeIntegralsAreThoseOfTheShapeFunctionsTimesTheField) {
   FaceNodes<Tri3> X;
-  X << 0, 2, 0, 0, 0, 3, 1, 1, 1;  // x = 2 N1, y = 3 N2, area 3
+  X << 0, 2, 0, 0, 0, 3, 1, 1, 1;  // x = 2 N1 and y = 3 N2 with the shape functions N; area 3
   const auto integrals = node_integrals<Tri3>(X, [](const Vec3& x) { return Scalar(x[0] * x[1]); });
   EXPECT_LE((integrals.transpose() - 18 * Vec3(exact(1, 1, 1), exact(0, 2, 1), exact(0, 1, 2))).norm(), 1e-14);
   EXPECT_NEAR(area<Tri3>(X), 3, 1e-14);
@@ -71,7 +71,8 @@ TEST(Tri6, SlopesAreThoseOfTheShapeFunctions) {
   }
 }
 
-// Nodes of an octant of the unit sphere: the error of the area falls with the fourth power of the size.
+// Quadratic triangles with nodes on an octant of the unit sphere. The error of the area is of fourth order in their
+// size.
 TEST(Tri6, AreaOfASphereConverges) {
   const auto error = [](int parts) {
     double sum = 0;

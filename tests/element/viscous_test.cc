@@ -1,4 +1,4 @@
-// Stiffness-proportional damping in terms of the rate of the strain measure.
+// Stiffness-proportional damping, whose stress is beta C dS with dS the rate of the stretch S.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -44,7 +44,7 @@ TEST(ViscousStress, VanishesWhenAStretchedStateTurnsRigidly) {
   }
 }
 
-// P : F_rate = beta dS : C : dS, dS from the polar decomposition of a complex step.
+// The power P : dF/dt must be beta dS : C : dS, with dS by a complex step through the polar decomposition.
 TEST(ViscousStress, DissipatesTheStiffnessOfTheRateOfStretch) {
   Random random(53);
   const auto C = fibre(100);
@@ -80,7 +80,7 @@ TEST(ViscousStress, StaysBoundedWhereRIsNotUnique) {
   Random random(56);
   for (double rho = 0.3; rho > 1e-14; rho *= 0.5) {
     const Mat3 F = random_state(random, {1.1, 0.8, -0.8 + rho}).F(), rate = random.matrix();
-    // chi ~ 10 q^3 outweighs the 1 / rho^2 of dS/dF.
+    // The blend factor chi ~ 10 q^3 vanishes faster than the product of two dS/dF ~ 1 / rho grows.
     EXPECT_LE(viscous(fibre(100), F, rate).norm(), 100 * kBeta * voigt(fibre(100)).norm()) << rho;
     EXPECT_LE(viscous(kIsotropic, F, rate).norm(), 100 * kBeta) << rho;
   }

@@ -1,4 +1,4 @@
-// The warped force R sigma: what it shares with the exact law, and what it lacks.
+// The warped force R sigma: properties that it shares with the exact law, and properties that it lacks.
 #include "lib/element/warped_law.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(WarpedLaw, HasTheEnergyOfTheExactLaw) {
   EXPECT_EQ(warped(fibre(100)).energy<double>(F - kQ, kQ), CorotationalLaw(fibre(100)).energy<double>(F - kQ, kQ));
 }
 
-// 20 % stretch at 40 degrees to the fibre.
+// A stretch of 20 % at 40 degrees to the fibre.
 Mat3 oblique_stretch() {
   const Vec3 n(std::cos(0.7), std::sin(0.7), 0);
   return Mat3::Identity() + 0.2 * n * n.transpose();

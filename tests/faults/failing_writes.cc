@@ -1,4 +1,4 @@
-// Linked into the program, these come before the functions of the C library, for libstdc++ too.
+// Replacements of C library functions; linked into the program, they take precedence, also for libstdc++.
 #include "tests/faults/failing_writes.h"
 
 #include <dlfcn.h>
@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -34,19 +35,21 @@ WriteFaults* faults() {
   return all;
 }
 
-// Counts one; true, with errno, if it is to fail.
+// Counts a write; true, with errno set, if it must fail.
 bool fails(bool needs_room) {
   WriteFaults* all = faults();
   if (!all || (all->kind == WriteFaults::Kind::full && !needs_room)) return false;
   const long k = ++all->counted;
   if (all->kind == WriteFaults::Kind::none) return false;
+  if (all->kind == WriteFaults::Kind::killed && k == all->k) std::raise(SIGKILL);
+  if (all->kind == WriteFaults::Kind::killed) return false;
   const bool full = all->kind == WriteFaults::Kind::full;
   if (full ? k < all->k : k != all->k) return false;
   errno = full ? ENOSPC : EIO;
   return true;
 }
 
-// Pipes and terminals are no matter of the disk.
+// Pipes and terminals are not on the disk.
 bool is_on_disk(int file, struct stat& status) { return fstat(file, &status) == 0 && S_ISREG(status.st_mode); }
 
 bool write_fails(int file, off_t at, std::size_t size) {

@@ -1,5 +1,5 @@
-// The program on a disk on which writes fail: orthodyn_failing_writes is `orthodyn` with the system's functions that
-// write replaced by those of failing_writes.cc. It and the processes that it starts count their writes together.
+// Faults of writes: orthodyn_failing_writes is `orthodyn` with the C library's functions that write replaced by those
+// of failing_writes.cc. The program and the processes that it starts count their writes together.
 #pragma once
 
 #include <sys/mman.h>
@@ -9,12 +9,13 @@
 
 namespace orthodyn {
 
-// Shared between processes, by the file that ORTHODYN_FAILING_WRITES names.
+// Shared between processes in the file that ORTHODYN_FAILING_WRITES names.
 struct WriteFaults {
   enum class Kind : int {
-    none,   // writes are counted
-    full,   // from the k-th on nothing that needs room can be written: ENOSPC. What stands there can be replaced.
-    broken  // the k-th fails, whatever it writes, and no other: EIO
+    none,    // writes are counted
+    full,    // ENOSPC for every write from the k-th on that needs space; existing bytes can be replaced
+    broken,  // EIO for the k-th write only
+    killed   // SIGKILL before the k-th write
   };
   Kind kind;
   long k;                     // counted from 1

@@ -1,5 +1,5 @@
-// One bit is changed in files that are read back. A run refuses them by their name, a study does again what they hold;
-// none is used as if it were whole. Checkpoints: tests/simulation/stopped_run_test.cc.
+// A single changed bit in files that are read back: a run rejects the file by name, a study repeats the work; neither
+// uses the damaged data. Checkpoints: tests/simulation/stopped_run_test.cc.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -13,7 +13,7 @@
 namespace orthodyn::flipped_bits_test {
 namespace {
 
-// Puts the file back as it was when it goes.
+// Restores the file on destruction.
 class FlippedBit {
  public:
   FlippedBit(const fs::path& file, std::mt19937& random) : file_(file), whole_(read_text(file)) {
@@ -47,7 +47,7 @@ output: {frames: 5}
 
 class FlippedBitsOfARun : public Resume {};
 
-// The scene beside a checkpoint is compared with the one in it; what a run that goes on may change is said.
+// The scene beside a checkpoint is compared with the one inside; permitted changes are reported.
 TEST_F(FlippedBitsOfARun, TheSceneBesideACheckpoint) {
   write("beam.yaml", kOneStep + std::string("checkpoint: {frames: 1}\n"));
   ASSERT_EQ(orthodyn("run beam.yaml --quiet").exit_code, 0);
@@ -74,7 +74,7 @@ TEST_F(FlippedBitsOfARun, TheSceneBesideACheckpoint) {
   EXPECT_GT(refused, 20);
 }
 
-// A run that is complete is not believed to be another one.
+// A completed run is not mistaken for another one.
 TEST_F(FlippedBitsOfARun, TheSceneAndTheRecordOfACompletedRun) {
   write("beam.yaml", kOneStep);
   ASSERT_EQ(orthodyn("run beam.yaml --quiet").exit_code, 0);
@@ -103,7 +103,7 @@ class FlippedBitsOfAStudy : public InFolder {
       if (entry.path().filename() == name) all.insert(entry.path());
     return {all.begin(), all.end()};
   }
-  // The figures of a table; times and memory differ each time.
+  // The values of a table; times and memory vary.
   static Json points(const fs::path& table, const char* key) {
     Json all = Json::parse(read_text(table)).at(key);
     for (auto& point : all)
@@ -111,13 +111,13 @@ class FlippedBitsOfAStudy : public InFolder {
     return all;
   }
 
-  // As JSON: 1e-05 and 1E-05 differ by a bit.
+  // Compared as JSON: 1e-05 and 1E-05 differ by a bit.
   static bool says_the_same_as(const std::string& before, const std::string& after) {
     const Json a = Json::parse(before, nullptr, false), b = Json::parse(after, nullptr, false);
     return !a.is_discarded() && a == b;
   }
 
-  // `names` is what the warning says of the file.
+  // `names`: the file in the warning.
   void expect_done_again(const std::string& command, const std::string& file, const fs::path& table, const char* key,
                          const std::function<std::string(const fs::path&)>& names) {
     ASSERT_EQ(orthodyn(command).exit_code, 0);
@@ -133,7 +133,7 @@ class FlippedBitsOfAStudy : public InFolder {
       const auto result = orthodyn(command);
       EXPECT_EQ(result.exit_code, 0) << flipped.text() << "\n" << result.output;
       const bool is_done_again =
-          result.output.find(fmt::format("warning: {} is damaged: done again", names(one))) != std::string::npos;
+          result.output.find(fmt::format("warning: {} is damaged", names(one))) != std::string::npos;
       EXPECT_NE(is_done_again, says_the_same) << flipped.text() << "\n" << result.output;
       EXPECT_EQ(points(folder_ / table, key), whole) << flipped.text() << "\n" << result.output;
     }
@@ -154,8 +154,8 @@ class FlippedBitsOfAComparison : public FlippedBitsOfAStudy {
   FlippedBitsOfAComparison() {
     write("c.yaml",
           "scenes: [scene.yaml]\nintegrators: [{type: tr_bdf2}]\ntolerances: [1e-3]\nrepeats: 1\nsamples: 4\n"
-          "reference: {kind: computed, integrator: {type: ida_bdf, max_order: 5, rtol: 1e-6}, check: {type: "
-          "cvode_bdf, max_order: 5, rtol: 1e-6}}\n");
+          "reference: {kind: computed, integrator: {type: ida_bdf, max_order: 5, rtol: 1e-6}, check: {type: cvode_bdf, "
+          "max_order: 5, rtol: 1e-6}}\n");
   }
 };
 
@@ -170,10 +170,9 @@ TEST_F(FlippedBitsOfAComparison, TrajectoriesOfReferences) {
 }
 
 TEST_F(FlippedBitsOfAStudy, ResultsOfAMatrix) {
-  write("case.yaml",
-        std::string(kOscillator) +
-            "expect: [{quantity: node.displacement.x, take: max, value: 2e-5, source: a formula, relative: "
-            "1, reason: none}]\n");
+  write("case.yaml", std::string(kOscillator) +
+                         "expect: [{quantity: node.displacement.x, take: max, value: 2e-5, source: a formula, "
+                         "relative: 1, reason: none}]\n");
   write("m.yaml", "cases: [case.yaml]\nintegrators: [tr_bdf2, newmark]\n");
   expect_done_again("stability m.yaml --no-report --quiet --jobs 1", "result.json", "out/stability/m/stability.json",
                     "trials", [&](const fs::path& file) { return relative(file); });

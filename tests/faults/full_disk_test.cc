@@ -1,13 +1,11 @@
-// Each write of a run and of a study fails once, and from each on the disk is full: the program says which file and
-// why, what there was before is still there, and the same command ends with the same result once there is room.
+// Each write of a run and of a study fails once, and from each write on the disk is full: the program names the file
+// and the reason, earlier files remain, and the same command completes with the same result once there is space.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 
 #include "lib/simulation/output/json.h"
-#include "tests/faults/failing_writes.h"
-#include "tests/simulation/resume_fixture.h"
+#include "tests/faults/faulty_program.h"
 #include "tests/simulation/run_program.h"
 #include "tests/study/sweep_command.h"
 
@@ -16,45 +14,20 @@ namespace {
 
 using Kind = WriteFaults::Kind;
 
-// Shared with the processes under test.
-class SharedFaults {
- public:
-  SharedFaults(const fs::path& file, Kind kind, long k) : file_(file) {
-    std::ofstream(file, std::ios::binary) << std::string(sizeof(WriteFaults), '\0');
-    std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
-    const WriteFaults begin{kind, k, 0};
-    out.write(reinterpret_cast<const char*>(&begin), sizeof begin);
-  }
-  long counted() const {
-    const std::string bytes = read_text(file_);
-    return reinterpret_cast<const WriteFaults*>(bytes.data())->counted;
-  }
-
- private:
-  fs::path file_;
-};
-
 struct FaultyDisk {
   const char* name;
   Kind kind;
   const char* reason;  // of the system
 };
 
-class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public InFolder {
+class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public FaultyProgram {
  protected:
-  struct Result : CommandResult {
-    long writes = 0;  // those that failed among them
-  };
-  // The k-th write fails, or none for 0.
+  // The k-th write fails.
   Result orthodyn_failing(long k, const std::string& arguments) const {
-    const SharedFaults faults(folder_ / "faults", k == 0 ? Kind::none : GetParam().kind, k);
-    const auto result =
-        shell("cd " + folder_.string() + " && ORTHODYN_FAILING_WRITES=" + (folder_ / "faults").string() + " " +
-              program("orthodyn_failing_writes") + " " + arguments);
-    return {{result.exit_code, result.output}, faults.counted()};
+    return orthodyn_with_fault(GetParam().kind, k, arguments);
   }
 
-  // Calls `expect` with what became of the command for each k in turn.
+  // Calls `expect` with the result of the command for each k.
   template <class Prepare, class Expect>
   void for_each_write(const std::string& command, Prepare&& prepare, Expect&& expect) {
     for (long k = 1;; ++k) {
@@ -98,7 +71,7 @@ class RunOnFaultyDisk : public OnFaultyDisk {
  protected:
   RunOnFaultyDisk() { write("beam.yaml", kShort); }
 
-  // Frames, tables and record are those of an undisturbed run.
+  // Frames, tables and record equal those of an undisturbed run.
   void expect_equal_results(const std::string& name, const std::string& whole) const {
     EXPECT_EQ(Json::parse(read_text(folder_ / name / "run.json")).at("status"), "completed");
     EXPECT_LT(difference(folder_ / whole, folder_ / name), 1e-6);
@@ -129,7 +102,7 @@ TEST_P(RunOnFaultyDisk, ARunSaysSoAndGoesOn) {
       });
 }
 
-// What was computed before is not lost while a run is extended.
+// Earlier results are not lost while a run is extended.
 TEST_P(RunOnFaultyDisk, ARunThatIsExtendedKeepsWhatItHas) {
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --out whole --set time.end=0.16").exit_code, 0);
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --out short").exit_code, 0);
@@ -158,7 +131,7 @@ TEST_P(RunOnFaultyDisk, ARunThatIsExtendedKeepsWhatItHas) {
 
 class StudyOnFaultyDisk : public OnFaultyDisk {
  protected:
-  // The table without what depends on the machine and the moment.
+  // The table without values that depend on machine and time.
   static Json figures(const fs::path& table) {
     Json t = Json::parse(read_text(table));
     for (auto& point : t.at("points"))
@@ -166,7 +139,7 @@ class StudyOnFaultyDisk : public OnFaultyDisk {
     return t.at("points");
   }
 
-  // `command` writes `table`; either it fails, or it says which points have.
+  // `command` writes `table`; it fails, or reports which points failed.
   void expect_it_goes_on(const std::string& command, const fs::path& table) {
     ASSERT_EQ(orthodyn(command).exit_code, 0);
     const Json whole = figures(folder_ / table);
@@ -174,7 +147,7 @@ class StudyOnFaultyDisk : public OnFaultyDisk {
         command, [&] { fs::remove_all(folder_ / "out"); },
         [&](const Result& result) {
           EXPECT_TRUE(result.exit_code == 3 || result.exit_code == 0) << result.exit_code << result.output;
-          // Without the log of a process, which is for when it fails, all is done.
+          // Without the log file of a process, which only failures need, everything succeeds.
           if (result.exit_code == 0 && result.output.find(GetParam().reason) == std::string::npos)
             EXPECT_EQ(figures(folder_ / table), whole) << result.output;
           else expect_named(result.output, "out/");

@@ -1,5 +1,4 @@
-// Tangents, strains and the smallest det F that are computed for a batch of elements at a time are those of the
-// elements one by one.
+// Tangents, strains and the smallest det F computed in batches equal those computed element by element.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,8 +87,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-// Alone an element fills its batch with copies of itself: inverted, the batch goes to the scalar law; together with
-// others it takes them along.
+// A single element fills its batch with copies of itself. A batch with an inverted element is computed by the scalar
+// law as a whole.
 TEST_P(BatchedElements, TangentIsTheSumOfThatOfEach) {
   Random random(6);
   const std::vector<int> all = all_cells();
@@ -112,7 +111,7 @@ TEST_P(BatchedElements, TangentIsTheSumOfThatOfEach) {
   }
 }
 
-// Of the first elements, of ever fewer: each is once the last of a batch that is not full.
+// The first elements, fewer each time: each element is once the last of a partly filled batch.
 TEST_P(BatchedElements, StrainsAreThoseOfItsPoints) {
   Random random(8);
   int num_inverted = 0;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/core/errors.h"
-#include "lib/fem/element_stiffness.h"
+#include "lib/fem/element_assembly.h"
 #include "lib/mesh/box.h"
 #include "tests/material/constants.h"
 

@@ -1,4 +1,4 @@
-// A scene from YAML text, built, with what tests ask of its model.
+// A model built from YAML text, with helper functions for tests.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace orthodyn {
 
-// `mesh: {type: given}`: the mesh that a test has put here.
+// Mesh source `mesh: {type: given}`: the mesh that a test sets here.
 TetMesh& given_mesh();
 
 struct BuiltTestScene {
@@ -58,7 +58,7 @@ std::string fibre_material(double ratio, double density = 1);
 
 std::string anisotropic_material(const Mat6& C, double density = 1);
 
-// The fibre material above as 21 constants in axes of which A are the fibre's.
+// The fibre material above as 21 constants in axes in which the fibre's axes are A.
 std::string turned_fibre_material(double ratio, const Mat3& A, double density = 1);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Derivatives judged by the order at which central differences approach them.
+// Checks derivatives by the observed convergence order of central differences.
 #pragma once
 
 #include <gtest/gtest.h>

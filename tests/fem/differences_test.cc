@@ -1,4 +1,4 @@
-// Derivatives in time of formulas, by differences.
+// Time derivatives of formulas by finite differences.
 #include "lib/fem/differences.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The last batch of a region is filled up with copies: what they do to nodes must stay where its elements are, since
-// groups of elements are worked on at the same time (element_groups.h).
+// The last batch of a region is padded with copies. They may write only to nodes of its own elements, because groups of
+// elements run in parallel (element_groups.h).
 #include "lib/fem/element_batches.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ void expect_copies_of_the_last_element(int order) {
   ASSERT_NE(cells.size() % Batch::kLanes, 0u);
   const ElementBatches<E> elements(mesh, cells, ElementAxes(Mat3::Identity()));
   const int last = elements.num_batches() - 1;
-  // A stress that is no number leaves a mark at every node that it is added to, also times a volume of zero.
+  // A NaN stress marks every node that it is added to, even with a volume of zero.
   Mat3T<Batch> P;
   P.fill(Batch(std::numeric_limits<double>::quiet_NaN()));
   NodalVector f = NodalVector::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));

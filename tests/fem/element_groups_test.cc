@@ -83,7 +83,6 @@ TEST_P(Groups, OfFewElementsAreOne) {
 
 INSTANTIATE_TEST_SUITE_P(Orders, Groups, testing::Values(1, 2));
 
-// Whatever a number would be if it were computed again.
 TEST(BatchLoops, TheSmallestIsOfTheBatchThatGaveIt) {
   const TetMesh mesh = make_box({.cells = {6, 5, 4}});
   std::vector<int> cells(mesh.tets.size());

@@ -1,13 +1,13 @@
-// Elements with axes of their own: the same as one rotation where they agree, and the known answer of a
-// tube whose grain runs around it.
+// Material axes per element: the same as one rotation if all agree, and the analytical solution of a tube with
+// circumferential grain.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
 #include <numbers>
 
-#include "lib/fem/elastic_region.h"
 #include "lib/fem/element_mesh.h"
+#include "lib/fem/terms/elastic_term.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
@@ -44,7 +44,7 @@ TEST(ElementAxes, HaveTheMeanOfTheirPoints) {
   EXPECT_LE((axes.mean(0) - turned(0.35)).norm(), 64 * kEps);
 }
 
-// A grain that turns within an element is taken where the law is evaluated.
+// Axes that vary within an element are evaluated at the integration points.
 TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
   TetMesh mesh = make_box({.size = {2, 1, 1}, .cells = {1, 1, 1}});
   make_quadratic(mesh);
@@ -129,7 +129,7 @@ TEST_P(Grain, OfEqualAxesInAllElementsIsThatOfOneRotation) {
   }
 }
 
-// At a distance d the direction around the axis turns by about 1/d over the block.
+// At a distance d the circumferential direction rotates by about 1/d over the block.
 TEST_P(Grain, FarFromTheAxisOfACylinderIsThatOfStraightAxes) {
   Random random(203);
   const auto straight = body(kBlock, "{first: [0, 1, 0], second: [0, 0, 1]}", GetParam());
@@ -251,7 +251,7 @@ time: {end: 1}
 
 TEST(HoopReinforcedTube, UnderInnerPressureWidensAsKnownAndTheErrorIsOfSecondOrder) {
   const double coarse = Tube(4).error(), fine = Tube(8).error();
-  // Twice what linear interpolation of u ~ r^-k leaves over cells of h = 1/8: h^2/8 max u''.
+  // Twice the interpolation error of u ~ r^-k by linear cells of h = 1/8: h^2/8 max u''.
   const double k = Tube::exponent();
   EXPECT_LE(fine, 2 * k * (k + 1) / (8 * 8 * 8));
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.5) << coarse << " " << fine;

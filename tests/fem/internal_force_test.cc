@@ -1,5 +1,5 @@
-// What internal forces must be whatever the body: null at rest and after rigid
-// motion, in balance, exact for affine motion, free of units and of the observer's frame.
+// Properties of internal forces for any body: zero at rest and after rigid motion, balanced, exact for affine motion,
+// independent of units and of the frame.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The parts of a body's force: their names, and that they add up to the whole.
+// Parts of the force: their names, and their sum is the whole force.
 #include <gtest/gtest.h>
 
 #include "tests/fem/built_scene.h"

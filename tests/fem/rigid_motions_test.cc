@@ -1,4 +1,4 @@
-// What K resists least: the motions of a rigid body, as iterative solvers are told them.
+// Rigid motions, the near null space of K that iterative solvers use.
 #include <gtest/gtest.h>
 
 #include "tests/fem/built_scene.h"
@@ -26,7 +26,7 @@ TEST(RigidMotions, OfAFreeBodyAreResistedByNothing) {
   EXPECT_LE((K * motions).norm(), 1e-13 * K.norm() * motions.norm());
 }
 
-// The tangent of a body that has turned resists no further turn.
+// The tangent of a rotated body has no stiffness against further rotation.
 TEST(RigidMotions, AreThoseOfTheCurrentShape) {
   const BuiltTestScene scene = body("");
   const Mat3 R = Random(31).rotation();

@@ -1,5 +1,5 @@
-// An element of another shape, with more nodes and points than the tetrahedron, in all of fem: nothing there knows
-// which elements there are.
+// lib/fem with an element of another shape, with more nodes and points than the tetrahedron: no code depends on the
+// element types.
 #include <gtest/gtest.h>
 
 #include "lib/fem/element_type_of.h"

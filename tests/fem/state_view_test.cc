@@ -1,4 +1,4 @@
-// A view shares what its outputs have in common and gives what each gives alone.
+// A state view shares intermediate results; each output is the same as computed alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ time: {{end: 1}}
 };
 INSTANTIATE_TEST_SUITE_P(Masses, Views, testing::Values("lumped", "consistent"));
 
-// NaN is where there is no value, and equal to itself.
+// Compares values; NaN, which stands for no value, equals NaN.
 bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
@@ -61,7 +61,7 @@ TEST_P(Views, DoNotSeeWhatTheStateBecomesAfterwards) {
 
 int looks = 0;
 
-// Von Mises' stress, principal ones and exposures are all of one tensor.
+// Von Mises stress, principal stresses and exposures derive from the same tensor.
 TEST_P(Views, ATensorIsRecoveredOnceForAllThatIsMadeOfIt) {
   const FemStateView view(scene.model().parts(), state);
   const TensorField counted{"counted", "1", "", {}, [](const PointObservation& o) {

@@ -1,4 +1,4 @@
-// The same bits with any number of threads.
+// Results are bitwise identical for any number of threads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class Threads : public testing::TestWithParam<Case> {
     for (double& x : v_) x = share(random);
   }
 
-  // All that loops over elements compute.
+  // All results of element loops.
   std::vector<double> computed(int count) const {
     const LoopThreads threads(count);
     const Model& model = scene_.model();

@@ -1,4 +1,4 @@
-// Factors in time: values, rates, kinks.
+// Time functions: values, rates, kinks.
 #include "lib/fem/time_functions/time_function.h"
 
 #include <fmt/format.h>

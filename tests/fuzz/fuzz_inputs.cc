@@ -1,5 +1,5 @@
-// Scenes and studies. An input is the path of a shipped file, a line break, and a text that stands in its place. No
-// seeds are needed: every now and then a shipped file is taken up anew.
+// Fuzzer of scenes and studies. An input is the path of a shipped file, a line break, and a text that replaces the
+// content of this file. No seeds are needed: one mutation in eight starts again from a shipped file.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -63,7 +63,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const InputFileText input = split(data, size);
-  if (!is_shipped(input.path)) return -1;  // not to be kept
+  if (!is_shipped(input.path)) return -1;  // do not add it to the corpus
   const auto [verdict, message] = orthodyn::judge(input);
   if (verdict != orthodyn::Verdict::bug) return 0;
   std::fprintf(stderr, "%s ended with\n%s\n", input.path.c_str(), message.c_str());

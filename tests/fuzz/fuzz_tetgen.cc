@@ -1,7 +1,7 @@
 #include "lib/mesh/io/tetgen.h"
 #include "tests/fuzz/only_refuses.h"
 
-// The three files stand one after the other, divided by lines "%%".
+// An input is the text of the three TetGen files, separated by lines "%%".
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return orthodyn::only_refuses(data, size, [](std::string_view text) {
     constexpr std::string_view kBetween = "%%\n";

@@ -11,7 +11,7 @@
 #include <typeinfo>
 
 #include "lib/analysis/strain_limits.h"
-#include "lib/simulation/run/input_kind.h"
+#include "lib/simulation/run/scene_file.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/compare/comparison_design.h"
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMostPoints = 30;  // of a study that is expanded: each reads a scene
+constexpr double kMostPoints = 30;  // larger studies are not expanded, because each point reads a scene
 
 void check_materials(const Scene& scene) {
   for (const auto& [name, material] : scene.materials) strain_limits(material->stiffness());
@@ -60,7 +60,7 @@ void check_sweep(const Config& config) {
 
 void check_comparison(const Config& config) {
   Comparison comparison = read_comparison(config);
-  // Enough to see each integrator once, on one scene.
+  // Reduces the comparison to one run of each integrator, with one scene.
   comparison.tolerances.resize(std::min<std::size_t>(comparison.tolerances.size(), 1));
   comparison.steps.resize(std::min<std::size_t>(comparison.steps.size(), 1));
   comparison.scenes.erase(comparison.scenes.begin() + 1, comparison.scenes.end());

@@ -1,5 +1,5 @@
-// What `orthodyn check` does with an input, in this process, and whether it ended as it may: the input is accepted, or
-// refused with an error of our own that names a place. Studies are read and their points expanded.
+// Runs the checks of `orthodyn check` on an input, in this process. An input must be accepted, or refused with a
+// ConfigError that names a place; anything else is a bug. Studies are read and their points expanded.
 #pragma once
 
 #include <string>
@@ -7,23 +7,23 @@
 
 namespace orthodyn {
 
-// A YAML file by its path in this tree, from which the files that it names are found.
+// A YAML text in place of the file at `path`. Files named in the text are searched relative to this path.
 struct InputFileText {
-  std::string path;  // "configs/scenes/stem.yaml"
+  std::string path;  // relative to the source tree, such as "configs/scenes/stem.yaml"
   std::string text;
 };
 
-// Every scene, case, comparison, sweep and matrix of configs/.
+// All YAML files below configs/, sorted by path.
 std::vector<InputFileText> shipped_inputs();
 
-// A process does not get more memory than this by the mesh of a scene: a mesh that needs more is refused.
+// Sets RLIMIT_RSS of this process to 10 MB, so that scenes with larger meshes are refused.
 void limit_memory_of_meshes();
 
 enum class Verdict { accepted, refused, bug };
 
 struct InputVerdict {
   Verdict verdict = Verdict::accepted;
-  std::string message;  // of the exception
+  std::string message;  // of the exception; empty if accepted
 };
 
 InputVerdict judge(const InputFileText& input);

@@ -1,5 +1,5 @@
-// Damaged scenes and studies: each is accepted or refused with a place, nothing else happens. A small, seeded share of
-// what the fuzzer fuzz_inputs does (CMakeLists.txt), with the same mutations.
+// Damaged scenes and studies must be accepted, or refused with a message that names a place. Uses the mutations of the
+// fuzzer fuzz_inputs (CMakeLists.txt), with few inputs and fixed seeds.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -27,7 +27,7 @@ std::vector<std::string> all_words() {
   return out;
 }
 
-// Of each seed.
+// The number of inputs per seed.
 int number_of_inputs() {
   const char* given = std::getenv("ORTHODYN_MUTATED_INPUTS");
   return given ? std::atoi(given) : 700;
@@ -38,7 +38,7 @@ class MutatedInputs : public testing::TestWithParam<unsigned> {
   MutatedInputs() { limit_memory_of_meshes(); }
 };
 
-// An input that ends the process or takes longer than a minute stays behind in the folder for temporary files.
+// If an input crashes the process or takes longer than a minute, its text is left in the folder of temporary files.
 TEST_P(MutatedInputs, AreAcceptedOrRefusedWithAPlace) {
   const auto shipped = shipped_inputs();
   const auto words = all_words();

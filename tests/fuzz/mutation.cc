@@ -11,7 +11,7 @@ namespace orthodyn {
 
 namespace {
 
-// What the emitter would mend is put in afterwards.
+// Placeholder for invalid UTF-8, which is inserted after emission because the emitter would repair it.
 constexpr const char* kNoUtf8 = "NO_UTF8";
 
 const std::vector<std::string>& edge_values() {
@@ -115,9 +115,9 @@ const auto& one_of(const List& list, std::mt19937& random) {
   return list[random() % list.size()];
 }
 
-// A value below the root, and where it stands.
+// A value below the root, with its parent and its key.
 struct Slot {
-  YAML::Node parent, key, value;  // of a list the key is the index
+  YAML::Node parent, key, value;  // in a list the key is the index
 };
 
 void collect(const YAML::Node& node, std::vector<Slot>& slots, int depth = 0) {
@@ -182,7 +182,7 @@ class TreeMutation {
   }
 
  private:
-  // Through a handle of its own: an assignment changes what the node is wherever it stands.
+  // `into` is taken by value: assigning to a copy of a YAML::Node changes the node in the tree.
   static void put(YAML::Node into, const YAML::Node& value) { into = value; }
 
   const Slot& scalar_slot() {
@@ -191,7 +191,7 @@ class TreeMutation {
     return slots_.front();
   }
 
-  // One of the list, or of the value that stands there: with a sign, a factor, a unit.
+  // One of edge_values(), or the present value with an added sign, digits, exponent or unit.
   std::string edge_of(const YAML::Node& value) {
     if (!value.IsScalar() || random_() % 3 != 0) return one_of(edge_values(), random_);
     static constexpr std::array<const char*, 14> kBefore{"-", "-", "", "", "", "", "", "", "", "", "", "", "0.", "1"};

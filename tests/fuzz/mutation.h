@@ -1,4 +1,5 @@
-// Seeded changes of input files: of their bytes, and of YAML as a tree. One sequence for one seed on every machine.
+// Random mutations of input files, of their bytes or of their YAML tree. A seed gives the same sequence on every
+// machine.
 #pragma once
 
 #include <random>
@@ -7,15 +8,15 @@
 
 namespace orthodyn {
 
-// One to four changes of bytes: to any byte, to one that means something, or cut off.
+// Makes one to four changes: replaces, inserts, erases or copies bytes, or truncates the text.
 std::string with_mutated_bytes(std::string text, std::mt19937& random);
 
-// One to three changes of the tree: values at the edge of what is allowed and beyond, values from elsewhere, keys and
-// subtrees that are lost, doubled, renamed, exchanged, wrapped or nested deeply. `words` are values and keys of other
-// files, to be put in. What is not YAML gets its bytes changed.
+// Makes one to three changes of the tree: inserts values at or beyond limits, or values from other places; removes,
+// doubles, renames, exchanges, wraps or deeply nests keys and subtrees. `words` are keys and values of other files to
+// insert. A text that is not YAML gets with_mutated_bytes() instead.
 std::string with_mutated_tree(const std::string& yaml, const std::vector<std::string>& words, std::mt19937& random);
 
-// Every key and scalar of a YAML text, for `words`; none if it is not YAML.
+// All keys and scalars of a YAML text, for `words`; empty if the text is not YAML.
 std::vector<std::string> words_of(const std::string& yaml);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// A reader of untrusted text may load it or refuse it with ConfigError; anything else is a bug.
+// Calls a reader with untrusted text. It may accept the text or throw ConfigError; anything else is a bug.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The lowest modes of chains with known spectra, small ones densely and large ones by iteration.
+// The lowest modes of chains with known spectra. Small chains use the dense solver, large ones the iterative solver.
 #include "lib/linear/eigenmodes.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Chain {
   std::vector<double> mass;
 };
 
-// n unit masses joined by unit springs, tied to walls or not.
+// n equal masses joined by unit springs. If `tied`, springs also join both ends to walls.
 Chain chain(int n, bool tied, double mass = 1) {
   Chain c;
   auto& pattern = c.stiffness.pattern;
@@ -79,14 +79,14 @@ TEST(Eigenmodes, AreMassOrthonormal) {
 
 TEST(Eigenmodes, OfAnIndefiniteMatrixBeginWithTheNegativeOnes) {
   Chain c = chain(400, true);
-  c.stiffness.values[0] = -1;  // a spring that pushes
+  c.stiffness.values[0] = -1;  // makes the matrix indefinite
   const EigenPairs pairs = lowest(c, 3);
   const Vector all = symmetric_eigenvalues(c.stiffness.dense());
   EXPECT_LT(pairs.values[0], -0.5);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(pairs.values[k], all[k], 1e-9);
 }
 
-// Three coordinates of 343 points on springs.
+// A Laplacian for each of the three coordinates of 343 points.
 TEST(Eigenmodes, ByIterationsAreThoseByAFactor) {
   if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << "built without PETSc";
   const System s = points(7);

@@ -1,17 +1,17 @@
-// A library's parallel loops are its caller's alone while SerialOpenMp lives, and parallel again afterwards.
-#include "lib/linear/openmp.h"
-
+// OpenMP loops of libraries run on the calling thread only while a SerialOpenMp exists, and in parallel afterwards.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "lib/linear/blas.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn::openmp_test {
 namespace {
 
-// How many nested loops may run in parallel; of the OpenMP that CHOLMOD loads, null where it does without.
+// omp_get_max_active_levels() of the OpenMP library that CHOLMOD loads: the number of nested loops that may run in
+// parallel. Null if no OpenMP is loaded.
 using Levels = int (*)();
 Levels levels() {
   solver_registry();

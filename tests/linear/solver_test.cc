@@ -1,4 +1,4 @@
-// One property suite for every direct solver in the registry.
+// Properties that every direct solver in the registry must have.
 #include "lib/linear/solver.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace orthodyn::solver_test {
 namespace {
 
-// Gaussian elimination without growth: backward error of a few eps, whatever n.
+// Gaussian elimination without pivot growth has a backward error of a few eps for any n.
 constexpr double kRoundOff = 32 * kEps;
 
 std::vector<std::string> solvers(const std::function<bool(const SolverKind&)>& wanted) {
@@ -53,7 +53,8 @@ TEST_P(AnySolver, SolvesRandomPositiveDefiniteSystemsToRoundOff) {
 TEST_P(AnySolver, FindsTheSolutionThatDenseEliminationFinds) {
   const System s = random_system(random_, 40, 0.2, true);
   const Vector b = random_vector(random_, 40), expected = s.dense().llt().solve(b);
-  // Gershgorin: the condition number of these systems is below 21 times the spread of the diagonal.
+  // By Gershgorin's theorem the condition number is below 21 times the ratio of the largest to the smallest diagonal
+  // entry.
   EXPECT_LE((solution(*factored(s), b) - expected).norm(), 1e-12 * expected.norm());
 }
 
@@ -110,7 +111,7 @@ TEST_P(AnySolver, KnowsTheBytesOfItsFactorAfterAnalysisAndAfterFactoring) {
   solver->analyze(s.pattern);
   const std::size_t predicted = solver->factor_bytes();
   ASSERT_EQ(solver->factor(s.values.data()), FactorStatus::ok);
-  const std::size_t least = s.values.size() * sizeof(double);  // L has the entries of the lower triangle
+  const std::size_t least = s.values.size() * sizeof(double);  // L has at least the entries of the lower triangle
   EXPECT_GE(solver->factor_bytes(), least);
   EXPECT_GE(predicted, least);
   EXPECT_NEAR(static_cast<double>(predicted), static_cast<double>(solver->factor_bytes()),
@@ -122,14 +123,13 @@ TEST_P(AnySolver, SaysWhatItChose) {
   EXPECT_FALSE(factored(s)->description().empty());
 }
 
-// `auto` takes a solver for definite matrices where they are symmetric, and one for general matrices where they are
-// not.
+// `auto` chooses a solver for definite matrices if the pattern is symmetric, else one for general matrices.
 class CholeskySolver : public AnySolver {};
 INSTANTIATE_TEST_SUITE_P(Registry, CholeskySolver, testing::Values("auto", "cholmod", "eigen_ldlt"),
                          [](const auto& tested) { return tested.param; });
 
-// Sylvester: a symmetric matrix with a negative diagonal entry has a negative eigenvalue. The pivots
-// before and after stay positive, so the one bad pivot has to be seen wherever it is.
+// A symmetric matrix with a negative diagonal entry has a negative eigenvalue, and by Sylvester's law a negative pivot.
+// All other pivots are positive, so the solver must detect a single negative pivot at any position.
 TEST_P(CholeskySolver, FindsANegativePivotAnywhereInASmallMatrix) {
   for (const int at : {0, 30, 63}) {
     System s = laplacian(4);
@@ -230,8 +230,8 @@ TEST_P(GeneralSolver, RefusesASingularMatrix) {
   EXPECT_EQ(solver->factor(s.values.data()), FactorStatus::singular);
 }
 
-// New values may need other pivots than those of the first factorisation: with them kept, entries
-// would grow by 1e6 and six digits be lost.
+// New values may need other pivots than the first factorisation. With the old pivots entries would grow by a factor of
+// 1e6, and six digits would be lost.
 TEST_P(GeneralSolver, ChoosesNewPivotsWhereTheOldOnesBecameSmall) {
   Eigen::MatrixXd full(2, 2);
   full << 2, 1, 1, 3;

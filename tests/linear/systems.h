@@ -9,7 +9,7 @@
 
 namespace orthodyn {
 
-// A matrix on a pattern of its own.
+// A sparse matrix with its pattern.
 struct System {
   Pattern pattern;
   std::vector<double> values;
@@ -26,7 +26,7 @@ struct System {
   }
 };
 
-// The entries of a full matrix that are not zero, and its diagonal.
+// The non-zero entries and the diagonal of a full matrix, as a sparse matrix.
 inline System sparse(const Eigen::MatrixXd& full, bool symmetric) {
   System s;
   s.pattern.n = static_cast<int>(full.rows());
@@ -43,7 +43,7 @@ inline System sparse(const Eigen::MatrixXd& full, bool symmetric) {
   return s;
 }
 
-// Random off the diagonal, which exceeds the sum of each row: positive definite if symmetric.
+// A random, diagonally dominant matrix; positive definite if symmetric.
 inline System random_system(Random& random, int n, double density, bool symmetric) {
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
   for (int j = 0; j < n; ++j)
@@ -54,7 +54,7 @@ inline System random_system(Random& random, int n, double density, bool symmetri
   return sparse(full, symmetric);
 }
 
-// The seven-point Laplacian on m x m x m points: eigenvalues in (0, 12).
+// The seven-point Laplacian on m x m x m points. Its eigenvalues are in (0, 12).
 inline System laplacian(int m) {
   System s;
   s.pattern.n = m * m * m;
@@ -86,7 +86,7 @@ inline Vector random_vector(Random& random, Eigen::Index n) {
   return Vector::NullaryExpr(n, [&] { return random.between(-1, 1); });
 }
 
-// |A x - b| / (|A| |x| + |b|) in the largest norm: a backward stable solver leaves a few eps n.
+// |A x - b| / (|A| |x| + |b|) in the maximum norm. A backward stable solver reaches a few eps n.
 inline double backward_error(const System& s, const Vector& x, const Vector& b) {
   Vector row_sums(x.size());
   std::vector<double> sizes;
@@ -96,7 +96,8 @@ inline double backward_error(const System& s, const Vector& x, const Vector& b) 
   return (s.multiply(x) - b).lpNorm<Eigen::Infinity>() / scale;
 }
 
-// Three equal Laplacians as the coordinates of points; point 0 is held but for its second coordinate, as supports do.
+// One Laplacian for each of the three coordinates of m x m x m points. The first and third coordinate of point 0 are
+// removed, as by a support.
 inline System points(int m) {
   const System scalar = laplacian(m);
   const Eigen::MatrixXd one = scalar.dense();
@@ -112,7 +113,7 @@ inline System points(int m) {
   return s;
 }
 
-// Motions of all of them along each coordinate.
+// The translations of all points along x, y and z, as columns.
 inline Eigen::MatrixXd translations(const Pattern& pattern) {
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(pattern.n, 3);
   for (int i = 0; i < pattern.n; ++i) motions(i, pattern.coordinate[static_cast<std::size_t>(i)] % 3) = 1;

@@ -1,4 +1,4 @@
-// Conjugate gradients with a coarse space, on a string of springs whose every other node the coarse space has.
+// Conjugate gradients with a coarse space, for a chain of springs. The coarse space has every other node.
 #include "lib/linear/two_level.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ struct String {
   std::vector<double> values;
 };
 
-// 2 on the diagonal plus `more`, -1 beside it.
+// A tridiagonal matrix: 2 + more on the diagonal, -1 beside it.
 String string_of(int n, double more = 0) {
   String out;
   out.pattern.n = n;
@@ -29,7 +29,7 @@ Eigen::MatrixXd dense(const String& s) {
   return stored.selfadjointView<Eigen::Lower>();
 }
 
-// Linear between nodes 1, 3, 5 ...
+// Interpolation from the coarse nodes 1, 3, 5 ..., linear between them.
 Eigen::MatrixXd lift(int n) {
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n / 2);
   for (int j = 0; j < n / 2; ++j)

@@ -1,4 +1,4 @@
-// The 21 constants: which entry is which, and what is refused.
+// Input of all 21 constants: order of the entries, and refused sets.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kUsual = "11-22-33-23-13-12";
 constexpr const char* kOurs = "11-22-33-12-23-31";
 
-// A matrix as the user writes it, in the order of the table.
+// The YAML of a matrix, with the entries of `table` in the given Voigt order.
 std::string input(const Mat6& table, const std::string& order, const std::string& more = "") {
   std::string yaml = "{type: anisotropic, density: 1, voigt_order: " + order + more;
   for (int i = 0; i < 6; ++i)
@@ -41,7 +41,7 @@ TEST(Anisotropic, InTheOrderOfThisProjectIsTheMatrixGiven) {
   EXPECT_EQ(stiffness_of(input(C, kOurs)), C);
 }
 
-// By tensor components: pair[i] is what index i of the table means.
+// Compares tensor components. pair[i] is the pair of tensor indices that index i of the table stands for.
 void expect_components(const std::string& order, const std::array<std::array<int, 2>, 6>& pair) {
   Random random(71);
   const Mat6 table = random_positive(random);
@@ -62,10 +62,10 @@ TEST(Anisotropic, InTheOrderOfAbaqusHasItsComponentsWhereTheTableSays) {
 }
 
 TEST(Anisotropic, HasNoDefaultForTheOrderOfItsIndices) {
-  EXPECT_TRUE(
-      holds(refusal_of("{type: anisotropic, density: 1, c11: 1, c22: 1, c33: 1, c12: 0, c13: 0, c23: 0, c44: 1, "
-                       "c55: 1, c66: 1}"),
-            "key 'voigt_order' is missing"));
+  EXPECT_TRUE(holds(
+      refusal_of(
+          "{type: anisotropic, density: 1, c11: 1, c22: 1, c33: 1, c12: 0, c13: 0, c23: 0, c44: 1, c55: 1, c66: 1}"),
+      "key 'voigt_order' is missing"));
 }
 
 TEST(Anisotropic, NeedsTheNineConstantsOfAnOrthotropicMaterialAndNoMore) {
@@ -77,16 +77,16 @@ TEST(Anisotropic, NeedsTheNineConstantsOfAnOrthotropicMaterialAndNoMore) {
   EXPECT_TRUE(holds(refusal_of(start + "c11: -3, " + rest), "c11: must be > 0 Pa"));
 }
 
-// Diagonal 1; c12 = -1.5 couples 11 and 22: eigenvalues 1 -+ 1.5.
+// C has ones on the diagonal and c12 = -1.5, and therefore the eigenvalues 1 -+ 1.5 and 1.
 TEST(Anisotropic, AnIndefiniteSetIsRefusedWithItsEigenvalueAndStrain) {
   Mat6 C = Mat6::Identity();
   C(0, 1) = C(1, 0) = -1.5;
   const std::string message = refusal_of(input(C, kUsual));
   EXPECT_TRUE(holds(message, "smallest eigenvalue -0.5 Pa, of the strain e11=0.71, e22=0.71."));
-  EXPECT_TRUE(holds(message, "times 0.6333): c12: -0.95."));  // (1 - 0.05) / 1.5
+  EXPECT_TRUE(holds(message, "times 0.6333): c12: -0.95."));  // factor (1 - 0.05) / 1.5
 }
 
-// c45 in the usual order couples the strains 23 and 13; Mandel's matrix has twice the entries there.
+// In the usual order c45 couples the strains 23 and 13. In Mandel's notation the entries of shear are doubled.
 TEST(Anisotropic, ShearStrainsAreNamedByTheirPlanes) {
   Mat6 C = Mat6::Identity();
   C(3, 4) = C(4, 3) = -2;

@@ -1,4 +1,4 @@
-// Sets of elastic constants, and C as a tensor, for tests.
+// For tests: random numbers, sets of elastic constants, and C as a tensor.
 #pragma once
 
 #include <cmath>
@@ -26,21 +26,23 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Constants with the given r12, r23, r31.
+// Constants with the scaled Poisson's ratios r = (r12, r23, r31), r_ij = nu_ij sqrt(E_j / E_i).
 OrthotropicConstants with_scaled_ratios(const Vec3& young, const Vec3& r);
 
-// Li & Barbic's family, with its shear moduli.
+// The stable family of Li & Barbic (2014) with the parameter nu, including its shear moduli.
 OrthotropicConstants stable_family(const Vec3& young, double nu);
 
-// GPa; nu31 = 0.0225.
+// Spruce, moduli in GPa; nu31 = 0.0225.
 OrthotropicConstants spruce();
 
+// The matrix Rho: 1 on the diagonal, -r_ij off it. With positive moduli, C is positive definite if and only if
+// Rho is.
 Mat3 rho_matrix(const Vec3& r);
 
-// Moduli over four decades, smallest eigenvalue of Rho above `margin`.
+// Random constants with moduli from 0.01 to 100 and all eigenvalues of Rho at least `margin`.
 OrthotropicConstants random_stable(Random& random, double margin = 0.05);
 
-// C_ijkl of a Voigt matrix, indices 0, 1, 2.
+// The component C_ijkl of a Voigt matrix; indices from 0 to 2.
 double component(const Mat6& C, int i, int j, int k, int l);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Materials as they are given in the input: what is accepted, refused, and with which advice.
+// Input of materials: accepted values, refused values, and the advice in the messages.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -83,12 +83,12 @@ TEST(MaterialRefuses, NumbersThatAreNotFinite) {
   EXPECT_TRUE(holds(refusal_of(orthotropic("nu12: 0, nu23: 0, nu13: 0", "[inf, 1, 1]")), "young.0: expected a finite"));
 }
 
-// Spruce with one modulus in MPa, and with E1 and E3 exchanged.
+// Spruce with one modulus in the wrong unit, and with E1 and E3 exchanged.
 TEST(MaterialRefuses, UnstableSetsWhoseModuliAreToBlame) {
   const std::string ratios = "nu12: 0.44, nu23: 0.44, nu13: 0.53";
   EXPECT_TRUE(holds(refusal_of(orthotropic(ratios, "[10.8e6, 0.84e9, 0.46e9]")),
-                    "Is E1 = 1.08e+07 Pa of the same unit as the other two, 8.4e+08 and 4.6e+08 Pa? With 1.08e+10 Pa "
-                    "the constants are those of a stable material. Otherwise nu12=0.44, "));
+                    "Is E1 = 1.08e+07 Pa in the same unit as the other two, 8.4e+08 and 4.6e+08 Pa? With 1.08e+10 Pa "
+                    "the material is stable. Otherwise nu12=0.44, "));
   EXPECT_TRUE(holds(refusal_of(orthotropic(ratios, "[0.46e9, 0.84e9, 10.8e9]")),
                     "Are the moduli in the order of the axes 1, 2, 3? With 1.08e+10, 8.4e+08, 4.6e+08 Pa"));
   EXPECT_FALSE(holds(refusal_of(orthotropic("nu12: 0.44, nu23: 1.7, nu13: 0.53", "[10.8e9, 0.84e9, 0.46e9]")), "Is E"));
@@ -130,7 +130,7 @@ TEST(MaterialRefuses, RatiosThatAreUnstableOnlyTogether) {
   EXPECT_TRUE(holds(message, "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu12 nu23 nu31 > 0 is violated: it is -1.944"));
 }
 
-// The number after `marker` in the message.
+// The number after `marker` in the message; NaN if `marker` is absent.
 double number_after(const std::string& message, const std::string& marker) {
   const auto at = message.find(marker);
   return at == std::string::npos ? std::nan("") : std::stod(message.substr(at + marker.size()));
@@ -161,7 +161,7 @@ TEST(MaterialRefuses, ARatioWithTheRangeThatIsAcceptedUpToItsEnds) {
   const double low = number_after(message, marker);
   const double high = number_after(message.substr(message.find(marker) + marker.size()), ", ");
   ASSERT_LT(low, high) << message;
-  const double digits = 1e-3 * (high - low);  // four are printed
+  const double digits = 1e-3 * (high - low);  // larger than the rounding of the four printed digits
   EXPECT_EQ(refusal_of(with_nu13(low + digits)), "accepted");
   EXPECT_EQ(refusal_of(with_nu13(high - digits)), "accepted");
   EXPECT_NE(refusal_of(with_nu13(low - digits)), "accepted");

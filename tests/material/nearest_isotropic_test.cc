@@ -7,7 +7,7 @@
 namespace orthodyn::nearest_isotropic_test {
 namespace {
 
-// The Euclidean norm of the fourth-order tensor of the difference.
+// The Euclidean norm of the difference of both fourth-order tensors.
 double distance(const OrthotropicStiffness& c, const IsotropicStiffness& iso) {
   return mandel(voigt(c) - voigt(as_orthotropic(iso))).norm();
 }

@@ -1,4 +1,4 @@
-// From engineering constants to C, against the compliance of Li & Barbic (2014) eq. (4).
+// C computed from engineering constants, compared with the compliance of Li & Barbic (2014) eq. (4).
 #include "lib/material/orthotropy.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Orthotropy, StiffnessIsTheInverseOfTheCompliance) {
 
 TEST(Orthotropy, SpruceHasItsClosedFormStiffness) {
   const auto C = stiffness(spruce());
-  const double tolerance = 0.5e-6;  // six decimals are given
+  const double tolerance = 0.5e-6;  // the source gives six decimals
   EXPECT_NEAR(C.c11, 11.248642, tolerance);
   EXPECT_NEAR(C.c22, 0.967018, tolerance);
   EXPECT_NEAR(C.c33, 0.527857, tolerance);
@@ -65,7 +65,7 @@ TEST(RhoEigenvalues, AreTheRootsOfTheCharacteristicPolynomialInAscendingOrder) {
     const double p = r.squaredNorm(), q = r.prod();
     const Vec3 mu = rho_eigenvalues(with_scaled_ratios(Vec3::Ones(), r)) - Vec3::Ones();
     EXPECT_TRUE(std::is_sorted(mu.begin(), mu.end()));
-    // det((1 + mu) I - Rho) = mu^3 - p mu + 2 q
+    // With the eigenvalues 1 + mu of Rho: det((1 + mu) I - Rho) = mu^3 - p mu + 2 q.
     EXPECT_NEAR(mu.sum(), 0, 32 * kEps);
     for (const double m : mu) EXPECT_NEAR(m * m * m - p * m + 2 * q, 0, 64 * kEps * (1 + p * std::sqrt(p)));
   }
@@ -96,7 +96,7 @@ TEST(RhoEigenvalues, DoNotDependOnTheRatioOfTheModuli) {
   EXPECT_LE((even - uneven).cwiseAbs().maxCoeff(), 8 * kEps);
 }
 
-// The constants with the material axes renamed: new axis i is old axis order[i].
+// The constants with renamed material axes: the new axis i is the old axis order[i].
 OrthotropicConstants permuted(const OrthotropicConstants& c, const std::array<int, 3>& order) {
   const Vec3& E = c.young;
   const double nu[3][3] = {

@@ -1,4 +1,4 @@
-// Repairs that the user asks for: what is used, what is said, and what the resolved input shows.
+// Repairs on request (repair, symmetrise): the constants used, the notes, and the resolved input.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ std::string orthotropic(const std::string& more) {
   return "{type: orthotropic, density: 400, young: [10.8, 0.84, 0.46], g12: 0.69, g23: 0.032, g13: 0.66, " + more + "}";
 }
 
-const std::string kUnstable = "nu12: 0.3, nu23: 0.3, nu31: 0.3";  // nu31 for nu13
+const std::string kUnstable = "nu12: 0.3, nu23: 0.3, nu31: 0.3";  // 0.3 is given for nu31 instead of nu13
 
 OrthotropicConstants unstable_constants() {
   OrthotropicConstants c = spruce();
@@ -61,7 +61,8 @@ TEST(Repair, IsSpelledOutInTheResolvedInputWhichIsStableItself) {
 }
 
 TEST(Symmetrise, UsesTheMeanOfBothReadings) {
-  // nu21 by symmetry of nu12 = 0.4 would be 0.4 * 0.84 / 10.8; given is 10 % more: the mean has nu12 = 0.42.
+  // By symmetry nu12 = 0.4 requires nu21 = 0.4 * 0.84 / 10.8. The given nu21 is 10 % larger, so the mean is nu12 =
+  // 0.42.
   const double nu21 = 1.1 * 0.4 * 0.84 / 10.8;
   const std::string yaml =
       orthotropic(fmt::format("nu12: 0.4, nu21: {}, nu23: 0.44, nu31: 0.0225, symmetrise: true", nu21));

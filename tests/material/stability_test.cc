@@ -1,4 +1,4 @@
-// Where C stops being positive definite, and the repair of unstable sets.
+// The limit at which C stops being positive definite, and the repair of unstable sets.
 #include <gtest/gtest.h>
 
 #include "lib/core/symmetric_eigen.h"
@@ -8,7 +8,8 @@
 namespace orthodyn::stability_test {
 namespace {
 
-// Rho(t r) has the eigenvalues 1 - t (1 - lambda): the boundary is at t = 1 / (1 - lambda_min).
+// The factor t at which Rho(t r) becomes singular. Rho(t r) has the eigenvalues 1 - t (1 - lambda), where lambda are
+// those of Rho(r), so t = 1 / (1 - lambda_min).
 double boundary(const Vec3& r) { return 1 / (1 - symmetric_eigenvalues(rho_matrix(r))[0]); }
 
 TEST(Stability, EndsWhereTheSmallestEigenvalueOfRhoVanishes) {
@@ -69,7 +70,7 @@ TEST(Shrink, LeavesTheSmallestEigenvalueAtTheMargin) {
 
 TEST(Shrink, OfEqualNegativeRatiosIsExactToo) {
   const auto c = stable_family({100, 10, 1}, -1.3);
-  const double s = stabilising_factor(c, 0.05);  // 1 + nu = margin
+  const double s = stabilising_factor(c, 0.05);  // reached where 1 + s nu = margin
   EXPECT_NEAR(-1.3 * s, -0.95, 1e-14);
 }
 

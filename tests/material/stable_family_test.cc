@@ -20,7 +20,7 @@ TEST(StableFamily, HasOneRatioForAllPairs) {
   EXPECT_LE((r - Vec3::Constant(0.37)).cwiseAbs().maxCoeff(), 4 * kEps);
 }
 
-// sigma = 2 mu M e M + lambda (M : e) M with M = diag(sqrt(E)): C is isotropic up to a congruence.
+// C is congruent to an isotropic one: sigma = 2 mu M e M + lambda (M : e) M with M = diag(sqrt(E)).
 TEST(StableFamily, IsACongruenceOfTheIsotropicLaw) {
   Random random(6);
   for (int sample = 0; sample < 300; ++sample) {
@@ -58,7 +58,7 @@ double condition(const OrthotropicConstants& c) {
 
 TEST(StableFamily, NearOneHalfHasTheConditionOfTheIsotropicLaw) {
   for (const double nu : {0.49, 0.499, 0.4999}) {
-    const double factor = (1 + nu) / (1 - 2 * nu);  // 74.5, 749.5, 7499.5
+    const double factor = (1 + nu) / (1 - 2 * nu);  // condition number: 74.5, 749.5, 7499.5
     EXPECT_NEAR(condition(stable_family(Vec3::Ones(), nu)) / factor, 1, 16 * kEps * factor);
   }
 }

@@ -1,4 +1,4 @@
-// Exposures to failure against what the criteria say in closed form.
+// Failure exposures compared with closed forms of the criteria.
 #include "lib/material/strength.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Exposure, OfAStressThatIsNotFiniteIsNotANumber) {
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(std::isnan(exposure(one(i, std::nan("")), kWood))) << i;
 }
 
-// Of axis 2 and its planes; axes 2 and 3 are alike to it.
+// Hashin's criterion treats the axes 2 and 3 alike, both with the strengths of axis 2.
 TEST(Exposure, IsOneAtEachStrengthByHashin) {
   EXPECT_NEAR(hashin_exposure(one(0, kWood.tension[0]), kWood), 1, 1e-14);
   EXPECT_NEAR(hashin_exposure(one(0, -kWood.compression[0]), kWood), 1, 1e-14);
@@ -64,7 +64,7 @@ TEST(Exposure, IsNoneWithoutStress) {
   for (const Exposure exposure : kAll) EXPECT_EQ(exposure(Vec6::Zero(), kWood), 0);
 }
 
-// A stress that is scaled to an exposure of 1 satisfies the criterion as Tsai and Wu wrote it.
+// A stress scaled to an exposure of 1 must satisfy the original equation of Tsai and Wu.
 TEST(TsaiWu, IsMetAtTheScaledStress) {
   Random random(52);
   for (int sample = 0; sample < 50; ++sample) {
@@ -87,7 +87,7 @@ TEST(Presets, OfTheWoodHandbooksWoodsHaveStrengths) {
   for (const Preset& preset : presets())
     if (preset.strength) {
       ++with;
-      // Along the grain a wood is the strongest, and weaker in compression than in tension.
+      // Wood is strongest along the grain, where it is weaker in compression than in tension.
       EXPECT_GT(preset.strength->tension[0], preset.strength->compression[0]) << preset.name;
       EXPECT_GT(preset.strength->compression[0], 5 * preset.strength->compression[1]) << preset.name;
     }

@@ -1,4 +1,4 @@
-// The 6x6 basis change against the rotation of tensors.
+// The 6x6 matrix of a change of basis, compared with the rotation of tensors.
 #include <gtest/gtest.h>
 
 #include "lib/material/stiffness.h"

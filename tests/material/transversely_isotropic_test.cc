@@ -1,4 +1,4 @@
-// One fibre and isotropy across it.
+// Transversely isotropic materials: a fibre, with isotropy across it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 std::string fibre_with(double nu_axial, double nu_transverse, const std::string& more = "") {
   return fmt::format(
-      "{{type: transversely_isotropic, density: 1, young_axial: 100, young_transverse: 4, nu_axial: {}, "
-      "nu_transverse: {}, shear_axial: 3{}}}",
+      "{{type: transversely_isotropic, density: 1, young_axial: 100, young_transverse: 4, nu_axial: {}, nu_transverse: "
+      "{}, shear_axial: 3{}}}",
       nu_axial, nu_transverse, more);
 }
 
@@ -42,7 +42,7 @@ TEST(TransverselyIsotropic, DoesNotChangeUnderRotationAboutTheFibre) {
   }
 }
 
-// 1 - nu_t - 2 nu_a^2 / 25 = 0 at nu_a = sqrt(25 (1 - nu_t) / 2).
+// With a ratio of moduli of 25 the limit 1 - nu_t - 2 nu_a^2 / 25 = 0 is at nu_a = sqrt(25 (1 - nu_t) / 2).
 TEST(TransverselyIsotropic, IsAcceptedUpToTheLimitOfTheAxialRatio) {
   for (const double nu_t : {-0.5, 0.0, 0.4, 0.9}) {
     const double limit = std::sqrt(12.5 * (1 - nu_t));

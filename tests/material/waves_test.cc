@@ -1,4 +1,5 @@
-// Plane waves in spruce: rho c^2 are the eigenvalues of Gamma_ik = C_ijkl n_j n_l.
+// Plane waves in spruce. With density rho, speed c and direction n, rho c^2 is an eigenvalue of
+// Gamma_ik = C_ijkl n_j n_l.
 #include <gtest/gtest.h>
 
 #include "lib/core/symmetric_eigen.h"
@@ -12,7 +13,7 @@ constexpr double kDensity = 400;  // kg/m^3
 
 Mat6 spruce_in_pascal() { return 1e9 * voigt(stiffness(spruce())); }
 
-// m/s, ascending.
+// The three wave speeds (m/s) in ascending order.
 Vec3 speeds(const Mat6& C, const Vec3& direction) {
   const Vec3 n = direction.normalized();
   Mat3 gamma = Mat3::Zero();

@@ -71,7 +71,7 @@ TEST(Curve, HasItsFootWhereTheArmIsNormalToIt) {
   }
 }
 
-// Against all points of a fine polygon.
+// Compared with all points of a fine polygon.
 TEST(Curve, HasNoNearerPointThanTheFoot) {
   Random random(43);
   std::vector<Vec3> points;
@@ -88,11 +88,11 @@ TEST(Curve, HasNoNearerPointThanTheFoot) {
 }
 
 TEST(Curve, CarriesItsNormalWithoutATwist) {
-  // In a plane the normal of the plane stays, and so does the angle to it.
+  // Along a plane curve, the angle to the normal of the plane is constant.
   const Curve flat(quarter_circle(9), Vec3(1, 0, 1));
   for (const double a : {0.1, 0.7, 1.5}) {
     const Vec3 radial(std::cos(a), std::sin(a), 0), normal = flat.nearest(radial).normal;
-    // Between two samples, h = pi / 256 apart, it is interpolated: an error of h^2 / 8.
+    // Interpolation between samples at a distance of h = pi / 256 has an error of h^2 / 8.
     EXPECT_NEAR(normal.dot(Vec3(0, 0, 1)), std::sqrt(0.5), 2e-5);
     EXPECT_NEAR(normal.dot(radial), std::sqrt(0.5), 1e-3);
   }
@@ -137,10 +137,10 @@ TEST(AxesAlong, AreRefusedWithoutACurve) {
   EXPECT_TRUE(holds(axes_refusal("{type: along}"), "exactly one of points, file"));
   EXPECT_TRUE(holds(axes_refusal(along({{0, 0, 0}})), "axes.points: found 1 point"));
   EXPECT_TRUE(holds(axes_refusal("{type: along, points: []}"), "at least two"));
-  EXPECT_TRUE(holds(axes_refusal(along({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}})), "points 1 and 2 are at the same place"));
+  EXPECT_TRUE(holds(axes_refusal(along({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}})), "points 1 and 2 coincide"));
   EXPECT_TRUE(holds(axes_refusal(along({{1, 0, 0}, {1, 0, 0}})), "points 0 and 1"));
   const auto text = along({{0, 0, 0}, {1, 0, 0}}, ", start_normal: [2, 0, 0]");
-  EXPECT_TRUE(holds(refusal([&] { axes_at(text); }), "start_normal is zero or along the curve's start"));
+  EXPECT_TRUE(holds(refusal([&] { axes_at(text); }), "start_normal is zero or parallel to the curve's start"));
 }
 
 class AxesFromFiles : public testing::Test {

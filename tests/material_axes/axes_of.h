@@ -1,4 +1,4 @@
-// The axes that a text of YAML gives at a point, and what it is refused for.
+// Material axes at a point, from YAML; the message if the YAML is refused.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ inline std::string axes_refusal(const std::string& yaml) {
   return refusal([&] { axes_source(yaml); });
 }
 
-// How far Q is from a right-handed rotation.
+// Deviation of Q from a rotation.
 inline double improper(const Mat3& Q) {
   return (Q.transpose() * Q - Mat3::Identity()).cwiseAbs().maxCoeff() + std::abs(Q.determinant() - 1);
 }

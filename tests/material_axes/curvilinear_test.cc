@@ -1,4 +1,4 @@
-// Axes that follow a cylinder or a sphere.
+// Cylindrical and spherical axes.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -43,7 +43,7 @@ TEST(CylindricalAxes, ByDefaultAreAboutZ) {
             1e-15);
 }
 
-// At (2, 0, 0) about z: L = z, R = x, T = y. Axis 3 is 1 x 2 and so may point the other way.
+// At (2, 0, 0) about z: L = z, R = x, T = y. Axis 3 = 1 x 2 may be reversed.
 TEST(CylindricalAxes, TakeTheOrderOfTheWord) {
   const auto direction = [](char letter) { return Vec3::Unit(letter == 'L' ? 2 : letter == 'R' ? 0 : 1); };
   for (const std::string order : {"LRT", "LTR", "RLT", "RTL", "TLR", "TRL"}) {
@@ -70,7 +70,7 @@ TEST(CylindricalAxes, OfSpiralGrainFollowAHelix) {
 TEST(CylindricalAxes, OnTheAxisAreTheDocumentedOnes) {
   EXPECT_LE((axes_at(cylinder({0, 0, 0}, {0, 0, 1}), {0, 0, 4}).col(1) - Vec3(1, 0, 0)).norm(), 1e-15);
   EXPECT_LE((axes_at(cylinder({0, 0, 0}, {2, 0, 0}), {4, 0, 0}).col(1) - Vec3(0, 1, 0)).norm(), 1e-15);
-  // Off it by round-off only: the same, and not a direction made of round-off.
+  // Off the axis by round-off: the same axes, not a direction from round-off.
   const Vec3 axis = Vec3(1, 2, 3).normalized();
   const Mat3 on = axes_at(cylinder({0.1, 0.2, 0.3}, axis), {0.1, 0.2, 0.3});
   for (const double along : {0.1, 1.0 / 3, 7.7})

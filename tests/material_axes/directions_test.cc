@@ -1,4 +1,4 @@
-// Axes that are the same everywhere: by directions, a matrix, Euler angles, axis and angle.
+// Uniform axes: directions, a matrix, Euler angles, axis and angle.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -79,7 +79,7 @@ TEST(Directions, RefuseARepairOfNothing) {
   EXPECT_TRUE(holds(axes_refusal("{type: directions, repair: orthonormalise}"), "nothing to repair"));
 }
 
-// 1 and 2 enclose 90 - 2a degrees; of all rotations the nearest moves both by a.
+// Axes 1 and 2 enclose 90 - 2a degrees; the nearest rotation rotates both by a.
 TEST(Repair, TurnsTwoDirectionsByTheSameAngle) {
   const double a = 0.1;
   const Vec3 first(std::cos(a), std::sin(a), 0), second(std::sin(a), std::cos(a), 0);
@@ -89,7 +89,7 @@ TEST(Repair, TurnsTwoDirectionsByTheSameAngle) {
   EXPECT_LE((axes_at(yaml) - Mat3::Identity()).cwiseAbs().maxCoeff(), 8 * kEps);
   ASSERT_EQ(notes_of(yaml).size(), 1u);
   EXPECT_TRUE(starts(notes_of(yaml)[0], "a.yaml:1:7: axes: "));
-  EXPECT_TRUE(holds(notes_of(yaml)[0], fmt::format("turned by at most {:.3g} degrees", a * 180 / kPi)));
+  EXPECT_TRUE(holds(notes_of(yaml)[0], fmt::format("rotated by at most {:.3g} degrees", a * 180 / kPi)));
 }
 
 TEST(Repair, ReversesTheThirdOfALeftHandedSetAndLeavesTheOthers) {
@@ -139,7 +139,7 @@ Mat3 turn(int axis, double angle) { return Eigen::AngleAxisd(angle, Vec3::Unit(a
 
 TEST(EulerAxes, TurnAboutTheAxesOfTheConventionOneAfterTheOther) {
   const Vec3 angles(0.3, -0.7, 1.1);
-  for (const auto& convention : Registry<AxesSource>::entries().at("euler").keys[1].shape.names) {
+  for (const auto& convention : Registry<AxesSource>::entries().at("euler").keys[1].schema.names) {
     Mat3 Q = Mat3::Identity();  // each turn about an axis of the frame as it stands
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 about = Q.col(convention[i] - 'x');

@@ -1,4 +1,4 @@
-// Axes of hexahedra: every tetrahedron has those of the element that it was cut from.
+// Axes of hexahedra: each tetrahedron gets the axes of the element that it was split from.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace orthodyn::split_mesh_test {
 namespace {
 
-// Two cubes, with axes turned about z by 0 and by 90 degrees.
+// Two cubes with axes rotated about z by 0 and 90 degrees.
 const std::string kVtu = R"(<VTKFile type="UnstructuredGrid" version="0.1">
 <UnstructuredGrid>
 <Piece NumberOfPoints="12" NumberOfCells="2">
@@ -85,7 +85,7 @@ TEST_F(AxesOfASplitMesh, MayBeCellDataOfTheTetrahedra) {
   expect_those_of_cells(field(write(".vtu", write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text)));
 }
 
-// Of the hexahedra, of their tetrahedra as another file has them, and of rows; the grain of the second cube along y.
+// Axes of the hexahedra, of their tetrahedra in another file, and in CSV rows; axis 1 of the second cube is along y.
 TEST_F(AxesOfASplitMesh, StayWhereTheMeshIsRefined) {
   const std::string of_tets = write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text;
   LoadedMesh loaded{.mesh = mesh_};
@@ -104,7 +104,7 @@ TEST_F(AxesOfASplitMesh, OfAnotherMeshAreRefusedWhereItIsRefined) {
   std::swap(loaded.mesh.tets[0], loaded.mesh.tets[95]);
   std::rotate(loaded.mesh.tets.begin(), loaded.mesh.tets.begin() + 48, loaded.mesh.tets.end());
   mesh_ = loaded.mesh;
-  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "is not where element"));
+  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "have different positions"));
   mesh_.tets.pop_back();
   EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "12 tetrahedra for a mesh of 95"));
 }

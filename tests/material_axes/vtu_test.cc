@@ -1,4 +1,4 @@
-// Axes from VTU files, and that they come back as they were written.
+// Axes from VTU files: reading returns the written axes.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace {
 
 class AxesFromVtu : public testing::Test {
  protected:
-  // An ASCII file of a mesh with one array of cell data per entry.
+  // Writes an ASCII file of a mesh with one cell data array per entry.
   static std::string write(const TetMesh& mesh, const std::vector<std::pair<std::string, std::vector<Vec3>>>& data,
                            int components = 3) {
     const auto numbers = [](const auto& values) {
@@ -86,8 +86,7 @@ TEST_F(AxesFromVtu, MayBeOfTheMeshInAnotherUnit) {
 TEST_F(AxesFromVtu, OfAnotherMeshOrOrderAreRefused) {
   TetMesh other = mesh_;
   std::swap(other.tets[1], other.tets[2]);
-  EXPECT_TRUE(
-      holds(refused(write(other, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), "cell 1 is not where element 1"));
+  EXPECT_TRUE(holds(refused(write(other, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), "cell 1 and element 1"));
   EXPECT_TRUE(holds(refused(write(mesh_, {{"axis_1", axes_[0]}})), "found axis_1 (3)"));
 }
 

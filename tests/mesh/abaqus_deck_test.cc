@@ -1,5 +1,5 @@
-// What Abaqus input files say in other ways than by nodes and elements in their place: other coordinates, other files,
-// sets of sets, shells, instances, axes by element.
+// Abaqus input files with other coordinate systems, included files, nested sets, shells, instances, and axes by
+// element.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace orthodyn::abaqus_deck_test {
 namespace {
 
-// Two bricks on each other.
+// Two bricks, one on top of the other.
 const std::string kNodes = R"(1, 0., 0., 0.
 2, 1.
 3, 1., 1.
@@ -50,7 +50,7 @@ TEST(AbaqusDeck, CoordinatesThatAreLeftOutAreZero) {
   EXPECT_NEAR(volume(mesh), 2, 1e-15);
 }
 
-// A quarter turn puts x on y; of a sphere the second angle goes up from the plane x-y.
+// An azimuth of 90 degrees is the y axis; the second angle of a sphere is the elevation above the x-y plane.
 TEST(AbaqusDeck, NodesMayBeInCylindricalOrSphericalCoordinates) {
   const std::string element = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1,2,3,4\n";
   const TetMesh cylinder = load("*NODE, SYSTEM=C\n1, 1., 0., 0.\n2, 2.\n3, 2., 90.\n4, 1., 0., 1.\n" + element).mesh;
@@ -91,11 +91,11 @@ TEST(AbaqusDeck, FilesThatAreNotThereOrHoldOtherThingsAreNamed) {
   folder.write("bad.txt", "1, 0, 0, 0\n2, x\n");
   folder.write("circle.inc", "*INCLUDE, INPUT=circle.inc\n");
   EXPECT_CONTAINS(message(kDeck + "*NSET, NSET=A, INPUT=none.txt\n"), "deck.inp:17: *NSET, INPUT=\"none.txt\": ");
-  EXPECT_CONTAINS(message("*NODE, INPUT=keyword.txt\n"), "keyword.txt:2: a keyword in a file of INPUT=");
+  EXPECT_CONTAINS(message("*NODE, INPUT=keyword.txt\n"), "keyword.txt:2: a keyword in a file named by INPUT=");
   EXPECT_CONTAINS(message("*NODE, INPUT=bad.txt\n"), "bad.txt:2: expected a coordinate (a finite number), found \"x\"");
-  EXPECT_CONTAINS(message("*INCLUDE, INPUT=circle.inc\n"), "does one include itself?");
+  EXPECT_CONTAINS(message("*INCLUDE, INPUT=circle.inc\n"), "does a file include itself?");
   folder.write("nodes.txt", kNodes);
-  EXPECT_CONTAINS(message("*NODE, INPUT=nodes.txt\n13, 1, 1, 1\n"), "deck.inp:2: lines of data behind a keyword with");
+  EXPECT_CONTAINS(message("*NODE, INPUT=nodes.txt\n13, 1, 1, 1\n"), "deck.inp:2: data lines after a keyword with");
 }
 
 TEST(AbaqusDeck, ANodeSetMayBeTheNodesOfElements) {
@@ -111,19 +111,19 @@ TEST(AbaqusDeck, EveryNodeThatASetListsMustExist) {
   EXPECT_CONTAINS(join(warnings), "element set \"E\" lists 1 element that no *ELEMENT defines");
 }
 
-// A set that contains itself is refused even if nothing uses the set, whichever of its sets the file has first.
+// A set that contains itself is refused even if nothing uses it, whatever the order of the sets in the file.
 TEST(AbaqusDeck, ASetThatContainsItselfIsRefusedByNameAndLine) {
   const auto circle = [](const std::string& sets) { return refusal(kDeck + "*SOLID SECTION, ELSET=ALL\n" + sets); };
   EXPECT_CONTAINS(circle("*ELSET, ELSET=_A\n1, _B\n*ELSET, ELSET=_B\n2, _A\n"),
-                  "body.inp:21: *ELSET: set \"_A\" contains itself (_A has _B has _A)");
+                  "body.inp:21: *ELSET: set \"_A\" contains itself (_A contains _B contains _A)");
   EXPECT_CONTAINS(circle("*ELSET, ELSET=C\nD\n*ELSET, ELSET=D\nE\n*ELSET, ELSET=E\nD\n"),
-                  "body.inp:23: *ELSET: set \"D\" contains itself (D has E has D)");
-  EXPECT_CONTAINS(circle("*ELSET, ELSET=A\na\n"), "body.inp:19: *ELSET: set \"A\" contains itself (A has A)");
+                  "body.inp:23: *ELSET: set \"D\" contains itself (D contains E contains D)");
+  EXPECT_CONTAINS(circle("*ELSET, ELSET=A\na\n"), "body.inp:19: *ELSET: set \"A\" contains itself (A contains A)");
   EXPECT_CONTAINS(circle("*NSET, NSET=M\n1, N\n*NSET, NSET=N\nM\n"),
-                  "body.inp:21: *NSET: set \"M\" contains itself (M has N has M)");
+                  "body.inp:21: *NSET: set \"M\" contains itself (M contains N contains M)");
 }
 
-// Thirty within each other; and a node set and an element set of the same name are two sets.
+// Thirty nested sets; a node set and an element set of the same name are two sets.
 TEST(AbaqusDeck, SetsThatDoNotContainThemselvesMayNameEachOther) {
   std::string sets = "*NSET, NSET=S0\n1\n";
   for (int k = 1; k <= 30; ++k) sets += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, 0);
@@ -131,7 +131,7 @@ TEST(AbaqusDeck, SetsThatDoNotContainThemselvesMayNameEachOther) {
   EXPECT_EQ(load(kDeck + "*ELSET, ELSET=TOP\n2\n*NSET, NSET=TOP, ELSET=TOP\n").mesh.node_sets.at("TOP").size(), 8u);
   std::string chain = "*ELSET, ELSET=S0\n1\n";
   for (int k = 1; k <= 1100; ++k) chain += fmt::format("*ELSET, ELSET=S{}\nS{}\n", k, k - 1);
-  EXPECT_CONTAINS(refusal(kDeck + chain), "more than 1000 sets within each other");
+  EXPECT_CONTAINS(refusal(kDeck + chain), "nested more than 1000 deep");
 }
 
 TEST(AbaqusDeck, SetsMayNameElementsThatAreLeftOut) {
@@ -149,7 +149,7 @@ TEST(AbaqusDeck, SurplusNodesSayHowManyTheTypeHas) {
                   "body.inp:16: element 2 ends early: 7 of the 8 nodes of a C3D8");
 }
 
-// Shells on the top; seen from below they are the same faces.
+// Shells on the top: SPOS and SNEG are the same faces.
 TEST(AbaqusDeck, SidesOfShellsAreSurfaces) {
   const std::string shells = kDeck + "*ELEMENT, TYPE=S4R, ELSET=SHELL\n3, 9, 10, 11, 12\n*SURFACE, NAME=A\nSHELL, ";
   const TetMesh up = load(shells + "SPOS\n").mesh, down = load(shells + "SNEG\n").mesh;
@@ -163,8 +163,8 @@ const std::string kParts = "*PART, NAME=Cube\n*NODE\n" + kNodes + "*ELEMENT, TYP
                            "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n*SOLID SECTION, ELSET=Low, ORIENTATION=O\n"
                            "*SOLID SECTION, ELSET=High\n*END PART\n*ASSEMBLY, NAME=A\n";
 
-// The second is shifted by 5 along x, then turned by 90 degrees about the line through (5, 0, .) along z: its edge
-// along x goes along y.
+// The second instance is translated by 5 along x, then rotated by 90 degrees about the z line through (5, 0): its edge
+// along x becomes parallel to y.
 TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
   const LoadedMesh loaded = load(kParts +
                                  "*INSTANCE, NAME=One, PART=Cube\n*END INSTANCE\n"
@@ -180,7 +180,7 @@ TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
   EXPECT_EQ(mesh.node_sets.at("Tip"), (std::vector<int>{0, 1, 2, 3, 22}));
   EXPECT_LT((mesh.nodes[13] - Vec3(5, 1, 0)).norm(), 1e-15);
   EXPECT_LT((mesh.nodes[15] - Vec3(4, 0, 0)).norm(), 1e-15);
-  // The axes of its section turn with it.
+  // The section axes rotate with the instance.
   const CellData* first = find_cell_data(loaded, "axis_1");
   ASSERT_TRUE(first);
   const auto of_two = static_cast<std::ptrdiff_t>(3 * mesh.tets.size() / 2);
@@ -189,7 +189,7 @@ TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
   EXPECT_CONTAINS(join(loaded.warnings), "1000 is added to those of Two");
 }
 
-// As Abaqus/CAE writes it: the part and the assembly have a set of the same name, with other nodes.
+// As written by Abaqus/CAE: part and assembly have sets of the same name with different nodes.
 TEST(AbaqusDeck, SetsOfThePartAndOfTheAssemblyAreDifferentSets) {
   const TetMesh mesh = load(kParts +
                             "*INSTANCE, NAME=Cube-1, PART=Cube\n*END INSTANCE\n"
@@ -203,17 +203,18 @@ TEST(AbaqusDeck, SetsOfThePartAndOfTheAssemblyAreDifferentSets) {
 TEST(AbaqusDeck, InstancesThatCannotBePlacedAreRefused) {
   const auto message = [](const std::string& instance) { return refusal(kParts + "*INSTANCE, NAME=I, " + instance); };
   EXPECT_CONTAINS(message("PART=Ball\n"), "no *PART \"Ball\"");
-  EXPECT_CONTAINS(message("LIBRARY=old\n"), "*INSTANCE, LIBRARY: what an earlier analysis left is not read");
+  EXPECT_CONTAINS(message("LIBRARY=old\n"), "*INSTANCE, LIBRARY: results of an earlier analysis are not read");
   EXPECT_CONTAINS(message("PART=Cube\n0, 0, 0\n1, 1, 1, 1, 1, 1, 30\n"),
                   "two different points of the axis of rotation");
   EXPECT_CONTAINS(message("PART=Cube\n*END INSTANCE\n*NSET, NSET=N\n1\n"), "node 1 is not defined in the assembly");
-  EXPECT_CONTAINS(message("PART=Cube\n*END INSTANCE\n*INSTANCE, NAME=I, PART=Cube\n"), "a second *INSTANCE \"I\"");
+  EXPECT_CONTAINS(message("PART=Cube\n*END INSTANCE\n*INSTANCE, NAME=I, PART=Cube\n"),
+                  "*INSTANCE \"I\" is defined twice");
   EXPECT_CONTAINS(load(kParts + "*PART, NAME=Q\n*END PART\n*INSTANCE, NAME=I, PART=Cube\n").warnings.back() +
                       join(load(kParts + "*PART, NAME=Q\n*END PART\n*INSTANCE, NAME=I, PART=Cube\n").warnings),
                   "*PART \"Q\", which no *INSTANCE places");
 }
 
-// Columns: axes 1, 2 and 3 of the first tet of an element of two.
+// Columns: axes 1, 2 and 3 of the first tet of one of the two elements.
 Mat3 axes_of(const LoadedMesh& loaded, std::size_t element) {
   const CellData *first = find_cell_data(loaded, "axis_1"), *second = find_cell_data(loaded, "axis_2");
   const std::size_t at = 3 * element * loaded.mesh.tets.size() / 2;
@@ -239,7 +240,7 @@ TEST(AbaqusDeck, DistributionsGiveEachElementItsAxes) {
     EXPECT_LT((axes_of(loaded, 0) - Mat3::Identity()).norm(), 1e-15);
     EXPECT_LT((axes_of(loaded, 1) - turn(30, 2)).norm(), 1e-15);
   }
-  // By a set, with a further turn by an angle that is listed, too.
+  // By a set, with an additional rotation by a distribution of angles.
   const LoadedMesh turned =
       load(kDeck + "*ELSET, ELSET=TOP\n2\n" + table + replaced(rows, "2, 0.8", "TOP, 0.8") +
            "*DISTRIBUTION TABLE, NAME=U\nANGLE\n*DISTRIBUTION, LOCATION=ELEMENT, TABLE=U, NAME=H\n"
@@ -253,7 +254,7 @@ TEST(AbaqusDeck, DistributionsThatDoNotSayTheAxesAreRefused) {
   const std::string use = "*ORIENTATION, NAME=WOOD\nG\n" + kSection;
   EXPECT_CONTAINS(refusal(kDeck + use), "no *DISTRIBUTION \"G\"");
   EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G\n2, 1, 0, 0, 0, 1, 0\n" + use),
-                  "element 1: no row of its distribution, and there is none for the others");
+                  "element 1: its distribution has no row for it, and no default row");
   EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G, LOCATION=NODE\n2, 1, 0, 0, 0, 1, 0\n" + use),
                   "distribution \"G\" is not of two points (COORD3D, COORD3D) by element");
   EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G\n2, 1, 0, 0, 0, 1, 0, 7\n" + use), "7 values; a row of");
@@ -264,7 +265,7 @@ TEST(AbaqusDeck, OrientationsMayBeCylindricalSphericalOrByAxis3) {
   const LoadedMesh cylindrical =
       load(kDeck + "*ORIENTATION, NAME=WOOD, SYSTEM=CYLINDRICAL\n0, 0, 0, 0, 0, 1\n" + kSection);
   EXPECT_LT((axes_of(cylindrical, 1) - turn(45, 2)).norm(), 1e-15);
-  // Away from (0, 0, 1/2) at the first brick: horizontally; around the axis y, to which "meridional" is parallel there.
+  // At the first brick the radial direction is horizontal and the meridional direction is parallel to the polar axis y.
   const LoadedMesh spherical =
       load(kDeck + "*ORIENTATION, NAME=WOOD, SYSTEM=SPHERICAL\n0, 0.5, 0.5, 0, 1.5, 0.5\n" + kSection);
   Mat3 expected;

@@ -1,5 +1,5 @@
-// Every parameter of every keyword that the reader of Abaqus files knows: it changes what is read, changes nothing, or
-// is refused by name; of a material it may be named as the reason why the material is not read.
+// Every known parameter of every Abaqus keyword changes the mesh, changes nothing, or is refused by name. A parameter
+// of a material may also be the reason why the material is not read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace orthodyn::abaqus_parameters_test {
 namespace {
 
-// Two cubes on each other, with each keyword once.
+// Two stacked cubes; uses each keyword once.
 const std::string kDeck = R"(*Part, name=P
 *Node, nset=Nodes
 1, 0, 0, 0
@@ -56,7 +56,7 @@ Grain
 7800
 )";
 
-// Beside the file that the deck includes.
+// Reads the deck in the folder of the included file.
 LoadedMesh load(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("head.inc", "*Nset, nset=Head\n9, 10, 11, 12\n");
@@ -92,7 +92,7 @@ struct Parameter {
 };
 void PrintTo(const Parameter& p, std::ostream* os) { *os << p.keyword << ", " << p.parameter; }
 
-// The deck with this parameter of the first such keyword, instead of one of the same name.
+// The deck with this parameter at the first occurrence of the keyword; replaces a parameter of the same name.
 std::string deck_with(const std::string& keyword, const std::string& parameter) {
   const std::size_t with = kDeck.find(keyword + ",");
   const std::size_t begin = with != std::string::npos ? with : kDeck.find(keyword + "\n");

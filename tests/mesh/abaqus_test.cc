@@ -59,7 +59,7 @@ TEST(Abaqus, SolidSectionsDecideRegionsWhereThereAreSome) {
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"Body"});
 }
 
-// Each face has the three nodes that its number says; the boundary turns them outward.
+// Each face number gives the three nodes of Abaqus' manual; boundary faces are oriented outward.
 TEST(Abaqus, FacesOfATetAreNumberedAsInItsManual) {
   const int opposite[] = {3, 2, 0, 1};  // the node that is not on S1 ... S4
   for (int side = 1; side <= 4; ++side) {
@@ -88,10 +88,10 @@ TEST(Abaqus, WarnsOfWhatItSkips) {
 
 TEST(Abaqus, SaysWhichElementsALaterSetTakes) {
   EXPECT_CONTAINS(load(kDeck).warnings[1],
-                  "body.inp: 1 elements of element set \"Body\" are in \"far\", too, which comes later");
+                  "body.inp: 1 elements of element set \"Body\" are also in \"far\", which comes later");
   EXPECT_EQ(load(replaced(kDeck, "*Elset, elset=far, generate\n2, 2, 1\n", "")).warnings.size(), 1u);
   EXPECT_CONTAINS(load(kDeck + "*Solid Section, elset=far\n*Solid Section, elset=Body\n").warnings[1],
-                  "1 elements of element set \"far\" are in \"Body\", too");
+                  "1 elements of element set \"far\" are also in \"Body\"");
 }
 
 TEST(Abaqus, TwoNamesOfTheSameElementsAreNoLoss) {
@@ -120,7 +120,7 @@ Mat3 axes_of(const LoadedMesh& loaded, Eigen::Index element) {
 }
 
 TEST(Abaqus, OrientationsOfSectionsAreAxesOfTheirElements) {
-  // Axis 1 along y; the second point makes 1-2 the plane y-z.
+  // Axis 1 along y; the second point puts axis 2 into the y-z plane.
   const LoadedMesh loaded = load(kDeck + "*Orientation, name=GRAIN\n0, 2, 0, 0, 1, 3\n" + kSections);
   EXPECT_LT((axes_of(loaded, 0) - Mat3::Identity()).norm(), 1e-15);
   Mat3 expected;
@@ -132,7 +132,7 @@ TEST(Abaqus, OrientationsHaveAnOriginAndAnAngle) {
   const LoadedMesh shifted = load(kDeck + "*Orientation, name=grain\n5, 7, 5, 5, 6, 8, 5, 5, 5\n" + kSections);
   const LoadedMesh plain = load(kDeck + "*Orientation, name=grain\n0, 2, 0, 0, 1, 3\n" + kSections);
   EXPECT_LT((axes_of(shifted, 1) - axes_of(plain, 1)).norm(), 1e-15);
-  // By 90 degrees about axis 3: the new axis 1 is the old axis 2, the new axis 2 the old -1.
+  // Rotation by 90 degrees about axis 3: new axis 1 = old axis 2, new axis 2 = -old axis 1.
   const LoadedMesh turned = load(kDeck + "*Orientation, name=grain\n0, 2, 0, 0, 1, 3\n3, 90.\n" + kSections);
   EXPECT_LT((axes_of(turned, 1).col(0) - axes_of(plain, 1).col(1)).norm(), 1e-15);
   EXPECT_LT((axes_of(turned, 1).col(1) + axes_of(plain, 1).col(0)).norm(), 1e-15);
@@ -140,8 +140,9 @@ TEST(Abaqus, OrientationsHaveAnOriginAndAnAngle) {
 }
 
 TEST(Abaqus, OrientationsThatAreNotReadAreNamed) {
-  EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain, system=user\n" + kSections),
-                  "body.inp:27: *ORIENTATION, SYSTEM=\"user\" is not read; read are RECTANGULAR, Z RECTANGULAR,");
+  EXPECT_CONTAINS(
+      refusal(kDeck + "*Orientation, name=Grain, system=user\n" + kSections),
+      "body.inp:27: *ORIENTATION, SYSTEM=\"user\" is not supported; supported: RECTANGULAR, Z RECTANGULAR,");
   EXPECT_CONTAINS(refusal(kDeck + kSections), "body.inp:28: *SOLID SECTION: no *ORIENTATION \"GRAIN\"");
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0, 2, 0\n" + kSections), "points are on a line");
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0\n" + kSections), "with 4 coordinates");
@@ -155,7 +156,7 @@ TEST(Abaqus, TakesASinglePartAsFlat) {
       "*End Part\n*Assembly, name=a\n*Instance, name=p-1, part=p\n*End Instance\n*Nset, nset=tip, "
       "instance=p-1\n50\n*End Assembly\n";
   EXPECT_EQ(load(deck).mesh.node_sets.at("tip"), std::vector<int>{4});
-  EXPECT_CONTAINS(refusal(deck + "*Part, name=p\n"), "a second *PART \"p\"");
+  EXPECT_CONTAINS(refusal(deck + "*Part, name=p\n"), "*PART \"p\" is defined twice");
 }
 
 struct BadDeck {
@@ -171,9 +172,10 @@ TEST_P(RefusedAbaqus, NamesTheLineAndTheRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Abaqus, RefusedAbaqus,
     testing::Values(
-        BadDeck{"cohesive", "C3D4", "COH3D6",
-                "body.inp:10: elements of type COH3D6; solid elements that are read: tetrahedra (C3D4, C3D4H, "},
-        BadDeck{"unknown_variant", "C3D4", "C3D4X", "body.inp:10: elements of type C3D4X; solid elements"},
+        BadDeck{
+            "cohesive", "C3D4", "COH3D6",
+            "body.inp:10: element type COH3D6 is not supported; supported solid elements: tetrahedra (C3D4, C3D4H, "},
+        BadDeck{"unknown_variant", "C3D4", "C3D4X", "body.inp:10: element type C3D4X is not supported"},
         BadDeck{"second_order", "C3D4", "C3D10", "element 1 ends early"},
         BadDeck{"no_coordinate", "40, 0., 0., 1.", "40, 0., zero",
                 "body.inp:8: expected a coordinate (a finite number)"},
@@ -184,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadDeck{"node_twice", "20, 1", "10, 1", "body.inp:6: node tag 10 is defined twice"},
         BadDeck{"face", "S1", "S5", "body.inp:21: surface \"bottom\": S5 of element 1; a tetrahedron has S1 to S4"},
         BadDeck{"face_of_none", "S1", "S7", "body.inp:21: face \"S7\"; expected S1 to S4 of a tetrahedron"},
-        BadDeck{"no_face", "Body, S1", "Body", "body.inp:21: a surface of elements without a face"},
+        BadDeck{"no_face", "Body, S1", "Body", "body.inp:21: a surface of elements needs a face"},
         BadDeck{"set", "Body, S1", "Crust, S1", "body.inp:21: no *ELSET \"CRUST\""},
         BadDeck{"range", "10, 50, 20", "50, 10, 20", "the numbers must ascend"},
         BadDeck{"include", "*Elastic", "*Include, input=x.inc",
@@ -197,7 +199,7 @@ TEST(Abaqus, AHugeRangeCostsNoMoreThanItsNodes) {
             3u);
 }
 
-// Otherwise a short line costs a walk through all nodes and is free.
+// Otherwise a short line could cost a search of all nodes without counting as work.
 TEST(Abaqus, NumbersThatARangeMissesAreNotFree) {
   std::string nodes = "50, 1, 1, 1\n", sets;
   for (int k = 1000; k < 7000; k += 2) nodes += std::to_string(k) + ", 2, 2, 2\n";

@@ -1,4 +1,4 @@
-// Volumes of solid elements by their shape functions, and what of them tetrahedra keep.
+// Volumes of solid elements by their shape functions, before and after splitting into tetrahedra.
 #include "lib/mesh/cell_volume.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ const Solid kSolids[] = {{CellKind::tet, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0
                           {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                           1}};
 
-// An element of second order with its nodes where `map` puts those of the solid; `complete`: also within its faces.
+// A quadratic element with nodes mapped from a unit solid by `map`; `complete`: with nodes within faces.
 struct Element {
   FileCell cell;
   std::vector<Vec3> nodes;
@@ -50,7 +50,7 @@ struct Element {
     }
     for (const auto& [a, b] : edges_of(cell.kind))
       cell.edges.push_back({cell.nodes[a], cell.nodes[b], add((solid.corners[a] + solid.corners[b]) / 2)});
-    for (const Places& face : faces_of(cell.kind))
+    for (const CornerIndices& face : faces_of(cell.kind))
       if (complete && face.size() == 4)
         cell.add_face_middle({face[0], face[1], face[2], face[3]},
                              add((solid.corners[face[0]] + solid.corners[face[2]]) / 2));
@@ -65,8 +65,8 @@ class AnyElement : public testing::TestWithParam<Solid> {};
 INSTANTIATE_TEST_SUITE_P(CellVolume, AnyElement, testing::ValuesIn(kSolids),
                          [](const auto& test) { return std::string(name_of(test.param.kind)); });
 
-// Linear maps change the volume by their determinant; the quadratic one has determinant 1 and lies in all shape
-// functions of second order.
+// Linear maps scale the volume by their determinant; the quadratic map has determinant 1 and is in the span of all
+// quadratic shape functions.
 TEST_P(AnyElement, HasTheVolumeOfTheMapOfItsNodes) {
   const Solid& solid = GetParam();
   Mat3 A;
@@ -86,7 +86,7 @@ double volume(const TetMesh& mesh) {
   return sum;
 }
 
-// Corners, middles of edges, and within each quadrilateral a node that stands out by 0.1, in the order of a format.
+// Corners, mid-edge nodes, and in each quadrilateral a node displaced outward by 0.1, in the order of a format.
 std::vector<Vec3> bulging(const Solid& solid, const std::vector<std::array<std::size_t, 2>>& edges,
                           const std::vector<std::array<std::size_t, 4>>& faces, bool has_centre) {
   std::vector<Vec3> nodes = solid.corners;
@@ -118,27 +118,27 @@ std::string counted_from(std::size_t first, std::size_t count) {
 }
 
 LoadedMesh from_gmsh(int type, const std::vector<Vec3>& nodes) {
-  return read_gmsh_text("a.msh",
-                        fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} "
-                                    "2 0 1{}\n$EndElements\n",
-                                    nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())));
+  return read_gmsh_text(
+      "a.msh",
+      fmt::format(
+          "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} 2 0 1{}\n$EndElements\n",
+          nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())));
 }
 
 LoadedMesh from_vtk(int type, const std::vector<Vec3>& nodes) {
-  return read_vtk_text(
-      "a.vtk", fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n{}"
-                           "CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
-                           nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
-                           counted_from(0, nodes.size()), type));
+  return read_vtk_text("a.vtk", fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+                                            "{} double\n{}CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
+                                            nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
+                                            counted_from(0, nodes.size()), type));
 }
 
-// Every node but a centre is one of the mesh, in its place: what is read in a wrong order folds, or lies within.
+// All nodes except a centre are nodes of the mesh; a wrong node order would fold elements or change the boundary.
 void expect_kept(const LoadedMesh& loaded, const std::vector<Vec3>& nodes, bool has_centre) {
   std::size_t found = 0;
   for (const Vec3& x : nodes)
     for (const Vec3& y : loaded.mesh.nodes) found += (x - y).norm() < 1e-14;
   EXPECT_GE(found, nodes.size() - (has_centre ? 1 : 0));
-  EXPECT_CONTAINS(join(loaded.warnings), "by their own shape functions");
+  EXPECT_CONTAINS(join(loaded.warnings), "by their shape functions");
 }
 
 using Edges = std::vector<std::array<std::size_t, 2>>;
@@ -150,15 +150,14 @@ const Faces kGmshHexFaces{{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}
 const Faces kGmshWedgeFaces{{0, 1, 4, 3}, {0, 3, 5, 2}, {1, 2, 5, 4}};
 const Faces kVtkHexFaces{{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
 
-// By 27 shape functions 1 + 6 (4/9) 0.1; the quadratic tets have 1 + 6 (1/3) 0.1, for a diagonal cuts each face in two.
+// The 27 shape functions give 1 + 6 (4/9) 0.1, the quadratic tets 1 + 6 (1/3) 0.1, as a diagonal cuts each face in two.
 TEST(CellVolume, ABulgingHexahedronKeepsItsNodesWhenItIsSplit) {
   const auto gmsh = bulging(kSolids[3], kGmshHex, kGmshHexFaces, true);
   const auto vtk = bulging(kSolids[3], edges_of(CellKind::hexahedron), kVtkHexFaces, true);
   for (const LoadedMesh& loaded : {from_gmsh(12, gmsh), from_vtk(29, vtk)}) {
     expect_kept(loaded, gmsh, true);
     EXPECT_CONTAINS(join(loaded.warnings),
-                    "a volume of 1.26667 by their own shape functions, the tetrahedra that they "
-                    "are split into 1.2 (-5.3 %)");
+                    "a volume of 1.26667 by their shape functions, the tetrahedra that replace them 1.2 (-5.3 %)");
     EXPECT_NEAR(volume(loaded.mesh), 1, 1e-14);  // of their corners
   }
 }

@@ -17,10 +17,7 @@ CylinderMesh cylinder_of(int around, double grading = 1) {
   return {.radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
 }
 TubeMesh tube_of(int around, double grading = 1) {
-  return {.inner_radius = 1,
-          .radius = 2,
-          .length = 3,
-          .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
+  return {{.radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}}, 1};
 }
 
 double volume(const TetMesh& mesh) {
@@ -144,7 +141,7 @@ TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
       1e-12);
 }
 
-// Also where the axis is opposite to z, or nearly so.
+// Includes axes that are (nearly) opposite to z.
 TEST(Cylinder, TurnedToAnyAxisItIsTheSameBody) {
   const TetMesh upright = make_cylinder(cylinder_of(8));
   for (const Vec3& axis :

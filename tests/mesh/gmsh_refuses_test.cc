@@ -1,4 +1,4 @@
-// What the reader refuses, with the line and the words of the message.
+// Files that the Gmsh reader refuses, with line and message.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ int line_of(const std::string& text, const std::string& part) {
 }
 
 // Replaces `from` by `to` in the file; the message must start with "beam.msh:<line of `from`
-// + offset>: " and hold `words`.
+// + offset>: " and contain `words`.
 void expect_refused(const std::string& file, const std::string& from, const std::string& to, const std::string& words,
                     int offset = 0) {
   const std::string message = refusal(replaced(file, from, to));
@@ -69,10 +69,10 @@ TEST(GmshRefuses, ForeignFiles) {
   EXPECT_NE(refusal(std::string("\0\x01\xff\n", 4)).find("beam.msh:1: "), std::string::npos);
 }
 
-// Text behind the word for binary.
+// A text file that claims to be binary.
 TEST(GmshRefuses, BinaryFilesThatAreNone) {
   for (const std::string& file : {replaced(kFile22, "2.2 0 8", "2.2 1 8"), replaced(kFile41, "4.1 0 8", "4.1 1 8")})
-    EXPECT_NE(refusal(file).find("beam.msh: byte 24 of a binary Gmsh file: the numbers are of another byte order"),
+    EXPECT_NE(refusal(file).find("beam.msh: byte 24 of a binary Gmsh file: the numbers have another byte order"),
               std::string::npos)
         << refusal(file);
   expect_refused(kFile22, "2.2 0 8", "2.2 2 8", "file type 2; save it as ASCII");
@@ -82,13 +82,14 @@ TEST(GmshRefuses, BinaryFilesThatAreNone) {
 
 TEST(GmshRefuses, OtherVersionsWithARemedy) {
   for (const std::string version : {"1.0", "3", "4", "4.0", "4.2", "5"}) {
-    expect_refused(kFile22, "2.2 0 8", version + " 0 8", "only 2.0 to 2.2 and 4.1 are read; save it as ASCII");
+    expect_refused(kFile22, "2.2 0 8", version + " 0 8", "supported: 2.0 to 2.2 and 4.1; save it as ASCII");
   }
-  EXPECT_NE(refusal("$NOD\n1\n1 0 0 0\n$ENDNOD\n").find("beam.msh:1: Gmsh format 1; only 2.0 to 2.2"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("$NOD\n1\n1 0 0 0\n$ENDNOD\n").find("beam.msh:1: Gmsh format 1 is not supported; supported: 2.0 to 2.2"),
+      std::string::npos);
 }
 
-// Gmsh saves only elements of physical groups where there are some.
+// If there are physical groups, Gmsh saves only their elements.
 TEST(GmshRefuses, SurfacesWithoutVolumeByTheirReason) {
   const std::string head =
       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"fixed face\"\n"
@@ -101,7 +102,7 @@ TEST(GmshRefuses, SurfacesWithoutVolumeByTheirReason) {
                 .find("physical groups (\"fixed face\") but no Physical Volume, and Gmsh saves only elements"),
             std::string::npos);
   EXPECT_NE(refusal(head + "0\n" + face + rest).find("did you mesh in 3D (gmsh -3)?"), std::string::npos);
-  EXPECT_NE(refusal(head + "0\n" + face + replaced(rest, "0 0 1\n$End", "1 1 0\n$End")).find("this is a 2D mesh"),
+  EXPECT_NE(refusal(head + "0\n" + face + replaced(rest, "0 0 1\n$End", "1 1 0\n$End")).find("a 2D mesh"),
             std::string::npos);
 }
 
@@ -121,9 +122,9 @@ TEST(GmshRefuses, ElementsInEntitiesOfAnotherDimension) {
 
 TEST(GmshRefuses, UnknownElementTypes) {
   expect_refused(kFile22, "4 4 2 1 1", "4 20 2 1 1",
-                 "element type 20; only tetrahedra, hexahedra, prisms and pyramids");
+                 "element type 20 is not supported; supported: tetrahedra, hexahedra, prisms and pyramids");
   expect_refused(kFile22, "4 4 2 1 1", "4 -4 2 1 1",
-                 "element type -4; only tetrahedra, hexahedra, prisms and pyramids");
+                 "element type -4 is not supported; supported: tetrahedra, hexahedra, prisms and pyramids");
 }
 
 TEST(GmshRefuses, PartitionedMeshes) {
@@ -221,7 +222,7 @@ TEST(GmshRefuses, NodesDefinedTwice) {
   expect_refused(kFile41, "4\n5\n", "4\n2\n", "node tag 2 is defined twice", 5);
 }
 
-// Turned, it overlaps its neighbour: a node was pushed through it.
+// A node was pushed through the opposite face: reoriented, the element overlaps its neighbour.
 TEST(GmshRefuses, ElementsThatOverlapOnceTheyAreTurned) {
   EXPECT_NE(refusal(replaced(kFile22, "5 1 1 1\n", "5 -1 -1 -1\n")).find("element 5: overlaps"), std::string::npos);
 }
@@ -265,7 +266,8 @@ TEST(GmshRefuses, TetsInASurface) {
 }
 
 TEST(GmshRefuses, ASectionGivenTwice) {
-  expect_refused(kFile22, "$Elements", "$Nodes\n0\n$EndNodes\n$Elements", "a second $Nodes (the first is in line 10)");
+  expect_refused(kFile22, "$Elements", "$Nodes\n0\n$EndNodes\n$Elements",
+                 "section $Nodes occurs twice (first in line 10)");
 }
 
 TEST(GmshRefuses, SectionsThatDoNotEnd) {

@@ -12,7 +12,7 @@
 
 namespace orthodyn {
 
-// A file in a directory of its own; both are removed in the end.
+// A file in its own directory; the destructor removes both.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& content) {

@@ -1,4 +1,4 @@
-// One mesh in every format: a cube as a hexahedron, beside it one of two wedges.
+// The same mesh in every format: a cube of one hexahedron beside a cube of two wedges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -230,7 +230,7 @@ std::set<std::set<int>> sets_of(const std::vector<Tet>& tets) {
   return out;
 }
 
-// Area of triangles that must all lie where coordinate i is x.
+// The area of triangles, which must all lie in the plane where coordinate i is x.
 double area_in_plane(const TetMesh& mesh, const std::string& surface, Eigen::Index i, double x) {
   double sum = 0;
   for (const Triangle& t : mesh.surfaces.at(surface)) {
@@ -308,7 +308,7 @@ TEST(Hexahedra, EveryTetHasTheCellDataOfItsElement) {
   }
 }
 
-// Five corners, whichever program they come from; the tet on it has the diagonal of no quadrilateral.
+// A pyramid in every format, with a tet on a triangular face.
 TEST(Hexahedra, PyramidsAreRead) {
   const std::string nodes = "1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 3\n";
   const LoadedMesh abaqus = read_abaqus_text(
@@ -332,23 +332,23 @@ TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
   EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 4u);
 }
 
-// Those that count their nodes the other way round among others that do not.
+// Some elements of the file are inverted, others are not.
 TEST(Hexahedra, InvertedOnesAreTurnedAndTold) {
   const auto expect_turned = [](const LoadedMesh& loaded, const std::string& message) {
     EXPECT_NEAR(volume(loaded.mesh), 2, 1e-14);
-    EXPECT_CONTAINS(join(loaded.warnings), message + "; they were turned");
+    EXPECT_CONTAINS(join(loaded.warnings), message + "; they were reoriented");
   };
   expect_turned(read_gmsh_text("a.msh", replaced(kGmsh22, "1 2 3 4 5 6 7 8\n", "5 6 7 8 1 2 3 4\n")),
-                "a.msh:32: 1 of 3 elements count their nodes the other way round, the first is element 5");
+                "a.msh:32: 1 of 3 elements list their nodes in inverted order, the first is element 5");
   expect_turned(read_gmsh_text("a.msh", replaced(kGmsh41, "2 9 10 6 11 12", "6 11 12 2 9 10")),
-                "a.msh:59: 1 of 3 elements count their nodes the other way round, the first is element 6");
+                "a.msh:59: 1 of 3 elements list their nodes in inverted order, the first is element 6");
   expect_turned(read_abaqus_text("a.inp", replaced(kAbaqus, "2, 9, 10, 6, 11, 12", "6, 11, 12, 2, 9, 10")),
-                "a.inp:18: 1 of 3 elements count their nodes the other way round, the first is element 6");
+                "a.inp:18: 1 of 3 elements list their nodes in inverted order, the first is element 6");
   expect_turned(read_vtk_text("a.vtk", replaced(kVtk, "0 1 2 3 4 5 6 7", "4 5 6 7 0 1 2 3")),
-                "a.vtk: 1 of 3 elements count their nodes the other way round, the first is element 1");
+                "a.vtk: 1 of 3 elements list their nodes in inverted order, the first is element 1");
 }
 
-// A corner of the hexahedron pushed through it: some of its tets are inverted, which no order of nodes explains.
+// A corner is pushed through the hexahedron: only some of its tets are inverted, so reorienting cannot repair it.
 TEST(Hexahedra, OnesThatAreInvertedInPartAreRefusedWithTheirLine) {
   EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "\n8, 0, 1, 1", "\n8, 2, -3, -2")); }),
                   "inverted");
@@ -365,10 +365,10 @@ TEST(Hexahedra, WithTooFewNodesAreRefused) {
   EXPECT_CONTAINS(refusal_of([] { read_vtu_text("a.vtu", replaced(kVtu, "12 13 13", "12 12 13")); }),
                   "a.vtu: cell 1: a hexahedron (type 12) of 6 points; expected 8");
   EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", "C3D15V")); }),
-                  "a.inp:14: elements of type C3D15V; solid elements that are read: tetrahedra");
+                  "a.inp:14: element type C3D15V is not supported; supported solid elements: tetrahedra");
   for (const char* unknown : {"C3D8X", "C3D8RR", "C3D8HR", "C3D9"}) {
     const std::string message = refusal_of([&] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", unknown)); });
-    EXPECT_CONTAINS(message, "elements of type " + std::string(unknown));
+    EXPECT_CONTAINS(message, "element type " + std::string(unknown));
     EXPECT_CONTAINS(message, "hexahedra (C3D8, C3D8H, C3D8I, C3D8IH, C3D8R, C3D8RH,");
   }
 }

@@ -9,7 +9,7 @@
 namespace orthodyn::medit_test {
 namespace {
 
-// A prism and a tetrahedron on its upper triangle.
+// A prism with a tetrahedron on its upper triangle.
 const std::string kMesh = R"(MeshVersionFormatted 2
 # a comment
 Dimension
@@ -73,7 +73,7 @@ TEST(Medit, HexahedraAreReadAsAbaqusNumbersThem) {
       2, 1e-15);
 }
 
-// Whichever order the middle nodes have, each is on the edge that it halves.
+// Mid-edge nodes are assigned to their edges, whatever their order in the file.
 TEST(Medit, QuadraticTetrahedraHaveTheirMiddleNodesOnTheirEdges) {
   const std::string head =
       "MeshVersionFormatted 2\nDimension 3\nVertices 10\n0 0 0 0\n2 0 0 0\n0 2 0 0\n0 0 2 0\n1 0 0 0\n"
@@ -94,10 +94,11 @@ TEST(Medit, RefusalsNameLineAndRemedy) {
   EXPECT_CONTAINS(refusal(replaced(kMesh, "Dimension\n3", "Dimension\n2")), "dimension 2; expected 3");
   EXPECT_CONTAINS(refusal(replaced(kMesh, "4 5 6 7 2", "4 5 6 9 2")), "body.mesh:15: ");
   EXPECT_CONTAINS(refusal(replaced(kMesh, "4 5 6 7 2", "4 5 6 7")), "body.mesh:15: expected a reference");
-  EXPECT_CONTAINS(refusal(replaced(kMesh, "Tetrahedra 1", "TetrahedraP3 1")), "elements TetrahedraP3 are not read");
+  EXPECT_CONTAINS(refusal(replaced(kMesh, "Tetrahedra 1", "TetrahedraP3 1")),
+                  "elements TetrahedraP3 are not supported");
   EXPECT_CONTAINS(refusal(replaced(kMesh, "Vertices\n7", "Vertices\n6")), "expected a keyword, found \"0\"");
   EXPECT_CONTAINS(refusal(kMesh.substr(0, kMesh.find("1 0 1 4"))), "the file ends after 4 of 7 Vertices");
-  EXPECT_CONTAINS(refusal_of([] { read_mesh("body.meshb"); }), "the binary form of Medit files is not read");
+  EXPECT_CONTAINS(refusal_of([] { read_mesh("body.meshb"); }), "binary Medit files are not supported");
   EXPECT_CONTAINS(refusal_of([] { read_mesh("body.med"); }), "meshio.write('body.vtu', meshio.read('body.med'))");
 }
 

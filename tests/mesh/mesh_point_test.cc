@@ -1,4 +1,4 @@
-// Places within elements.
+// Interpolation at points within elements.
 #include "lib/mesh/mesh_point.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ TetMesh box_of_order(int order) {
   return mesh;
 }
 
-// A field that is known at the nodes, at a place.
+// Interpolates nodal values of a field at a mesh point.
 template <class Field>
 double at(const TetMesh& mesh, const Vec3& place, const Field& field) {
   double sum = 0;

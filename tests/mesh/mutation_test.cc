@@ -1,4 +1,4 @@
-// Damaged files of every format: each loads or is refused with its name, nothing else happens.
+// Randomly damaged files of every format either load or are refused with their name.
 #include "tests/fuzz/mutation.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST_P(AnyMutation, LoadsOrIsRefused) {
   EXPECT_LT(loaded, kFiles);
 }
 
-// Two of the three files stay whole.
+// Two of the three files stay unchanged.
 void read_damaged_nodes(const std::string& stem, std::string_view node) {
   read_tetgen_text(stem, {node, content_of("cube.ele"), content_of("cube.face")});
 }

@@ -1,4 +1,4 @@
-// Nodes found by their places, against a search through all of them.
+// Nearest nodes, compared with a search of all nodes.
 #include "lib/mesh/near_nodes.h"
 
 #include <gtest/gtest.h>

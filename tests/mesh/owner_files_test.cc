@@ -1,4 +1,4 @@
-// Files as Gmsh, TetGen and meshio write them: see data/README.md.
+// Files written by Gmsh, TetGen and meshio: see data/README.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(OwnerFiles, BinaryGmshFilesAreThoseInAscii) {
   }
 }
 
-// 2.1 is read as 2.2; in 2.0 the names of physical groups do not say their dimension.
+// 2.1 is read as 2.2; in 2.0, names of physical groups have no dimension.
 TEST(OwnerFiles, OlderGmshFilesAreThoseOf22) {
   const std::string path = std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/two_boxes_22.msh";
   const std::string now = read_text_file(path);
@@ -92,7 +92,7 @@ TEST(OwnerFiles, OlderGmshFilesAreThoseOf22) {
   EXPECT_EQ(of20.node_sets, mesh.node_sets);
 }
 
-// Colors of pictures stand between the arrays, as bytes in a binary file.
+// Color tables between the arrays, which are bytes in a binary file.
 TEST(OwnerFiles, TablesOfColorsInVtkFilesAreSkipped) {
   const std::string head =
       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"

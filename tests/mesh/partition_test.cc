@@ -1,4 +1,4 @@
-// What parts of a mesh have, and tell each other, counted by hand.
+// Sizes and shared nodes of the parts of a mesh, compared with counts by hand.
 #include "lib/mesh/partition.h"
 
 #include <gtest/gtest.h>
@@ -45,10 +45,10 @@ TEST(Partition, CellsThatShareAFaceAreNeighbours) {
 
 TEST(Partition, FiguresOfARowOfCubesAreThoseOfItsFaces) {
   const TetMesh mesh = row_of_cubes(3);
-  const auto figures = figures_of_parts(mesh, one_part_a_cube(mesh), 3);
+  const auto figures = part_sizes(mesh, one_part_a_cube(mesh), 3);
   ASSERT_EQ(figures.size(), 3u);
   long owned = 0, copies = 0, copied = 0;
-  for (const PartFigures& part : figures) {
+  for (const PartSize& part : figures) {
     EXPECT_EQ(part.cells, 6);
     EXPECT_EQ(part.owned + part.copies, 8);  // a cube has eight corners
     owned += part.owned, copies += part.copies, copied += part.copied;
@@ -63,7 +63,7 @@ TEST(Partition, FiguresOfARowOfCubesAreThoseOfItsFaces) {
 
 TEST(Partition, PartsWithoutCellsHaveNothing) {
   const TetMesh mesh = row_of_cubes(1);
-  const auto figures = figures_of_parts(mesh, std::vector<int>(mesh.tets.size(), 1), 3);
+  const auto figures = part_sizes(mesh, std::vector<int>(mesh.tets.size(), 1), 3);
   for (const std::size_t empty : {0u, 2u}) {
     EXPECT_EQ(figures[empty].cells + figures[empty].owned + figures[empty].copies + figures[empty].copied, 0);
     EXPECT_EQ(figures[empty].neighbours, 0);

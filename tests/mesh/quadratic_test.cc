@@ -1,4 +1,4 @@
-// Quadratic meshes: made from linear ones, checked, written and read.
+// Quadratic meshes: conversion from linear ones, validation, writing and reading.
 #include "lib/mesh/quadratic.h"
 
 #include <gtest/gtest.h>
@@ -110,14 +110,14 @@ TEST(QuadraticFiles, WarnOfNodeSetsThatAreEmptyWithOrderOne) {
   };
   EXPECT_TRUE(warnings("").empty());
   ASSERT_EQ(warnings(", order: 1").size(), 1u);
-  EXPECT_NE(warnings(", order: 1")[0].find("node set \"middle\" holds nodes within edges only"), std::string::npos);
+  EXPECT_NE(warnings(", order: 1")[0].find("node set \"middle\" has mid-edge nodes only"), std::string::npos);
 }
 
-// A curved one: nodes on edges are far from half way.
+// A curved mesh with mid-edge nodes far from the midpoints.
 TEST(QuadraticFiles, OfTetgenKeepACurvedMesh) {
   const TemporaryFolder folder;
-  const TetMesh tube = make_tube(
-      {.inner_radius = 0.9, .radius = 1, .length = 0.5, .cells = {.around = 8, .through = 1, .along = 1}, .order = 2});
+  const TetMesh tube =
+      make_tube({{.radius = 1, .length = 0.5, .cells = {.around = 8, .through = 1, .along = 1}, .order = 2}, 0.9});
   write_mesh({.mesh = tube}, folder.path("tube.node"), false);
   EXPECT_EQ(read_mesh(folder.path("tube.node")).mesh.midsides, tube.midsides);
 }
@@ -169,8 +169,8 @@ TEST_P(QuadraticFiles, KeepNodesElementsAndFaces) {
 
 std::string data(const std::string& name) { return ORTHODYN_SOURCE_DIR "/tests/mesh/data/" + name; }
 
-// An octant of the unit ball, meshed by Gmsh 4.8 (octant.geo). Elements that were read in another order of nodes would
-// be refused, or have another volume: with straight edges it is 0.49.
+// An octant of the unit ball, meshed by Gmsh 4.8 (octant.geo). A wrong node order would fold elements or change the
+// volume, which is 0.49 with straight edges.
 class Octant : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Gmsh, Octant,
                          testing::Values("octant_22.msh", "octant_41.msh", "octant_gmsh.inp", "octant_gmsh.vtk"));
@@ -186,7 +186,7 @@ TEST_P(Octant, IsRound) {
 }
 
 // A quarter of a tube, from 1 to 2 m and 1 m long, of three hexahedra or six wedges with 20 or 15 nodes (tube.geo).
-// Edges that were read in another order would fold elements over; with straight ones the volume is 4.5 % too small.
+// A wrong order of mid-edge nodes would fold elements; with straight edges the volume is 4.5 % too small.
 class Tube : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Gmsh, Tube,
                          testing::Values("tube_hexahedra_22.msh", "tube_hexahedra_41.msh", "tube_hexahedra_gmsh.inp",
@@ -226,7 +226,7 @@ TEST(QuadraticFiles, OfVegaAreNot) {
                   "linear tetrahedra only");
 }
 
-// Whichever order a version of TetGen lists the nodes on edges in.
+// Versions of TetGen list mid-edge nodes in different orders.
 TEST(QuadraticFiles, OfTetgenMayListTheNodesOnEdgesInAnyOrder) {
   const std::string node =
       "10 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 .5 0\n6 .5 0 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n";
@@ -237,8 +237,8 @@ TEST(QuadraticFiles, OfTetgenMayListTheNodesOnEdgesInAnyOrder) {
 // A polygon of 16 corners has 97.4 % of the area of its circle.
 TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   TetMesh cylinder = make_cylinder({.radius = 1, .length = 2, .cells = {.around = 16, .along = 2}, .order = 2});
-  TetMesh tube = make_tube(
-      {.inner_radius = 0.9, .radius = 1, .length = 2, .cells = {.around = 12, .through = 1, .along = 2}, .order = 2});
+  TetMesh tube =
+      make_tube({{.radius = 1, .length = 2, .cells = {.around = 12, .through = 1, .along = 2}, .order = 2}, 0.9});
   EXPECT_TRUE(validate(cylinder, {"cylinder"}).empty());
   EXPECT_TRUE(validate(tube, {"tube"}).empty());
   EXPECT_NEAR(volume(cylinder), 2 * std::numbers::pi, 1e-3);
@@ -251,11 +251,11 @@ TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   lies_on(cylinder, "outer", 1);
   lies_on(tube, "outer", 1);
   lies_on(tube, "inner", 0.9);
-  // The coarsest, whose core is a single cell and whose ring three; nothing folds over.
+  // The coarsest mesh, with a core of one cell: no element is folded.
   const TetMesh four =
       make_cylinder({.radius = 1, .length = 2, .cells = {.around = 4, .through = 1, .along = 1}, .order = 2});
-  const TetMesh three = make_tube(
-      {.inner_radius = 0.3, .radius = 1, .length = 2, .cells = {.around = 3, .through = 1, .along = 1}, .order = 2});
+  const TetMesh three =
+      make_tube({{.radius = 1, .length = 2, .cells = {.around = 3, .through = 1, .along = 1}, .order = 2}, 0.3});
   lies_on(four, "outer", 1);
   EXPECT_NEAR(volume(four), 2 * std::numbers::pi, 0.2);
   EXPECT_NEAR(volume(three), 2 * std::numbers::pi * 0.91, 0.5);

@@ -29,7 +29,7 @@ double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
   return sum;
 }
 
-// With shifted inner nodes, two regions, a node set and values of cells.
+// A mesh with displaced inner nodes, two regions, a node set and cell data.
 LoadedMesh distorted() {
   LoadedMesh loaded{.mesh = make_box({.size = {2, 1, 1}, .cells = {3, 2, 2}, .split = BoxMesh::Split::six})};
   TetMesh& mesh = loaded.mesh;
@@ -92,12 +92,12 @@ TEST_P(Refinement, KeepsSurfacesAndNodeSets) {
   EXPECT_EQ(mesh.node_sets.at("floor"), floor);
 }
 
-// The volume under quadratic edges is that of the cell before: a cylinder of curved cells stays as round as it was.
+// Refinement keeps the volume of curved cells: a cylinder stays as round as before.
 TEST(Refinement, KeepsCurvedEdges) {
   LoadedMesh loaded{.mesh = make_cylinder({.radius = 1, .length = 1, .cells = {8, 1, 1}, .order = 2})};
   refine(loaded);
   EXPECT_TRUE(validate(loaded.mesh, {.source = "refined"}).empty());
-  // The parabola through three points of a circle, 1/16 of a turn apart, and its nodes at the quarters of an edge.
+  // The parabola through three points of a circle, 1/16 of a turn apart, at the quarter points of an edge.
   const double half = std::numbers::pi / 8, sagitta = 1 - std::cos(half);
   const double x = std::sin(half) / 2, y = std::cos(half) + 0.75 * sagitta;
   int at_quarters = 0;

@@ -1,4 +1,4 @@
-// Of use to the tests of the readers: messages of refusals, small files, and texts with one change.
+// Shared by the tests of readers: error messages, temporary files, and text replacement.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 namespace orthodyn {
 
-// The message of the ConfigError that this throws.
+// The message of the ConfigError that `action` throws, or "accepted".
 template <std::invocable Action>
 std::string refusal_of(Action&& action) {
   try {
@@ -31,14 +31,14 @@ std::string refusal_of(Action&& action) {
   return "accepted";
 }
 
-// `text` with the first `from` replaced.
+// Replaces the first `from` in `text`.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("not in the text: " + from);
   return text.replace(at, from.size(), to);
 }
 
-// Removed in the end.
+// A folder that the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

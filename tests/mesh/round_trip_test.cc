@@ -1,4 +1,4 @@
-// What is written and read again is the same, as far as the format can hold it.
+// Writing and reading gives the same mesh, as far as the format can represent it.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -15,7 +15,7 @@
 namespace orthodyn::round_trip_test {
 namespace {
 
-// Two regions that alternate, a surface, an inner one, a node set, and coordinates of all digits.
+// Two alternating regions, a boundary surface, an inner surface, a node set, and coordinates with all digits.
 LoadedMesh sample() {
   LoadedMesh loaded;
   loaded.mesh = make_box({.size = Vec3(1, 2, 3) / 3, .cells = {2, 1, 1}});
@@ -127,7 +127,7 @@ TEST(WrittenVtu, KeepsNamesAndCellData) {
   EXPECT_EQ(find_cell_data(read, "axis 1")->values, loaded.cell_data[0].values);
 }
 
-// A format may spell names otherwise; it then says so, and regions stay apart.
+// A format may change names; it reports that, and regions stay distinct.
 class NamesThatAreAlike : public testing::TestWithParam<const char*> {};
 
 TEST_P(NamesThatAreAlike, AreStillSeveralRegions) {
@@ -161,7 +161,7 @@ TEST(WrittenAbaqus, KeepsNamesWithCommasAndSetsThatDifferInCapitals) {
   EXPECT_EQ(read.node_sets.at("tip_2"), std::vector<int>{1});
 }
 
-// Other readers take the quotes for a part of the name.
+// Other readers treat quotes as part of the name.
 TEST(WrittenAbaqus, QuotesOnlyTheNamesThatNeedIt) {
   LoadedMesh loaded = sample();
   loaded.mesh.region_names = {"oak-2", "x, y=1"};
@@ -194,7 +194,7 @@ TEST(WriteMesh, ReplacesNothingUnasked) {
   EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);
 }
 
-// While it lives no file can grow beyond `bytes`, as on a disk that is full.
+// During its lifetime no file can exceed `bytes`, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

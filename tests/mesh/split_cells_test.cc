@@ -1,4 +1,4 @@
-// Hexahedra, wedges and pyramids become tetrahedra that fill them and match where they meet.
+// Hexahedra, wedges and pyramids are split into tetrahedra that fill them and match across common faces.
 #include "lib/mesh/split_cells.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Nodes = std::vector<int>;
 
-// A solid of unit size, whose faces here are written down once more.
+// A unit solid with its faces, listed independently of the code under test.
 struct Solid {
   CellKind kind;
   std::vector<Vec3> corners;
@@ -48,7 +48,7 @@ double volume(const std::vector<Tet>& tets, const std::vector<Vec3>& nodes) {
   return sum;
 }
 
-// By the divergence theorem, from faces cut by the diagonal through their smallest node.
+// Volume by the divergence theorem; faces are cut by the diagonal through their smallest node.
 double volume_within(const std::vector<Nodes>& faces, const Nodes& numbers, const std::vector<Vec3>& nodes) {
   double sum = 0;
   for (const Nodes& face : faces) {
@@ -87,7 +87,7 @@ TEST_P(AnySolid, WithWarpedFacesAndAnyNumbersHasItsVolumeInPositiveTets) {
   EXPECT_EQ(counts, solid.tets);
 }
 
-// Abaqus' faces are the solid's, seen from inside.
+// Abaqus lists the corners of faces clockwise from outside.
 TEST_P(AnySolid, HasTheFacesOfItsCorners) {
   const Solid& solid = GetParam();
   const auto& faces = faces_of(solid.kind);
@@ -197,7 +197,7 @@ class Blocks {
   MeshDraft draft_;
 };
 
-// What validate() does not see: a face of which each side is cut by another diagonal is a boundary to it.
+// validate() cannot detect a face whose two sides are cut by different diagonals: they look like boundary faces.
 void expect_conforming(const TetMesh& mesh, int n) {
   EXPECT_NEAR(volume(mesh.tets, mesh.nodes), n * n * n, 1e-12);
   EXPECT_EQ(boundary_triangles(mesh).size(), static_cast<std::size_t>(12 * n * n));
@@ -218,9 +218,9 @@ TEST(SplitCells, HexahedraWedgesAndPyramidsMatch) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const LoadedMesh loaded = build_mesh(Blocks(3, seed, true).take());
     expect_conforming(loaded.mesh, 3);
-    EXPECT_EQ(loaded.warnings[0], fmt::format("blocks.msh: 9 hexahedra, 18 wedges and 54 pyramids are split into {} "
-                                              "tetrahedra",
-                                              loaded.mesh.tets.size()));
+    EXPECT_EQ(loaded.warnings[0],
+              fmt::format("blocks.msh: 9 hexahedra, 18 wedges and 54 pyramids are split into {} tetrahedra",
+                          loaded.mesh.tets.size()));
   }
 }
 
@@ -231,7 +231,7 @@ TEST(SplitCells, ASplitMeshCanBeMadeQuadratic) {
   EXPECT_EQ(mesh.midsides.size(), mesh.tets.size());
 }
 
-// A cube of the region "first", then a tet on it, then a pyramid beside that.
+// A cube in the region "first", a tet on it, and a pyramid beside the tet.
 MeshDraft three_kinds() {
   MeshDraft draft;
   draft.files = {"mixed.msh"};
@@ -271,8 +271,8 @@ TEST(SplitCells, AnInvertedElementIsTurnedAndToldWithItsLine) {
   EXPECT_EQ(loaded.mesh.tets.size(), tets);
   for (const Tet& tet : loaded.mesh.tets) EXPECT_GT(signed_volume6(loaded.mesh, tet), 0);
   EXPECT_CONTAINS(loaded.warnings.at(0),
-                  "mixed.msh:12: 1 of 3 elements count their nodes the other way round, the first "
-                  "is element 70; they were turned");
+                  "mixed.msh:12: 1 of 3 elements list their nodes in inverted order, the first is element 70; they "
+                  "were reoriented");
 }
 
 TEST(SplitCells, AMeshOfInvertedElementsIsTurned) {
@@ -281,13 +281,13 @@ TEST(SplitCells, AMeshOfInvertedElementsIsTurned) {
     for (std::size_t k = 0; k < 4; ++k) std::swap(cell.nodes[k], cell.nodes[k + 4]);
   const LoadedMesh loaded = build_mesh(std::move(draft));
   expect_conforming(loaded.mesh, 2);
-  EXPECT_CONTAINS(loaded.warnings.at(0), "all 8 elements count their nodes the other way round");
+  EXPECT_CONTAINS(loaded.warnings.at(0), "all 8 elements list their nodes in inverted order");
 }
 
 TEST(SplitCells, RepeatedAndMissingNodesAreRefusedWithTheLine) {
   MeshDraft draft = three_kinds();
   draft.cells[0].nodes[2] = 0;
-  EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }), "mixed.msh:12: element 70: a hexahedron that repeats nodes");
+  EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }), "mixed.msh:12: element 70: a hexahedron with repeated nodes");
   draft.cells[0].nodes[2] = 99;
   EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }), "mixed.msh:12: element 70: node 99 is not defined in $Nodes");
 }
@@ -299,7 +299,7 @@ TEST(SplitCells, LinearOnesBesideQuadraticTetsAreRefused) {
                   "mixed.msh:13: element 71 is quadratic, earlier ones are not; all must be of one order");
 }
 
-// A map of degree 2 is met by elements of second order, and by the tets that they are split into.
+// Quadratic elements represent a map of degree 2 exactly, and so do the tets they are split into.
 TEST(SplitCells, NodesWithinFacesAndHexahedraAreWhereTheElementHasThem) {
   const auto place = [](const Vec3& x) -> Vec3 {
     return {x[0] + 0.1 * x[1] * x[1] + 0.05 * x[0] * x[2], x[1] - 0.1 * x[0] * x[2], x[2] + 0.08 * x[0] * x[1]};
@@ -342,10 +342,9 @@ TEST(SplitCells, ATetOnAQuadrilateralMustFitItsDiagonal) {
   draft.cells[1].nodes = {4, 5, 6, 8};
   EXPECT_EQ(build_mesh(draft).mesh.tets.size(), 7u);
   draft.cells[1].nodes = {4, 5, 7, 8};
-  EXPECT_CONTAINS(
-      refusal_of([&] { build_mesh(draft); }),
-      "mixed.msh:13: element 71: a tetrahedron on a quadrilateral of element 70 (mixed.msh:12), which is cut "
-      "by the other diagonal, from node 4 to 6; mesh with pyramids between them");
+  EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }),
+                  "mixed.msh:13: element 71: a tetrahedron on a quadrilateral of element 70 (mixed.msh:12), which is "
+                  "cut by the other diagonal, from node 4 to 6; mesh with pyramids between them");
   draft.cells[0].nodes[6] = 7;  // a collapsed face is no quadrilateral
   EXPECT_EQ(build_mesh(draft).mesh.tets.size(), 5u);
 }

@@ -23,7 +23,7 @@ TetMesh one_tet(double scale = 1) {
   return mesh;
 }
 
-// A second one behind the inclined face.
+// With a second tet at the inclined face.
 TetMesh two_tets() {
   TetMesh mesh = one_tet();
   mesh.nodes.push_back({1, 1, 1});
@@ -32,7 +32,7 @@ TetMesh two_tets() {
   return mesh;
 }
 
-// Two flat triangles that meet at node 0-1, with a dihedral angle at the edge 0-1.
+// A tet with this dihedral angle at the edge 0-1.
 TetMesh sliver(double angle, double scale) {
   TetMesh mesh = one_tet();
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, std::cos(angle), std::sin(angle)}};

@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVega{"no_material", "core, softwood", "core, hardwood", "body.veg:25: no *MATERIAL \"hardwood\""},
         BadVega{"no_set", "core, soft", "crust, soft", "body.veg:25: no *SET \"crust\""},
         BadVega{"element_of_set", "core\n2", "core\n3", "body.veg:17: set \"core\": element 3; there are 1 to 2"},
-        BadVega{"mooney", "ENU,", "MOONEYRIVLIN,", "only ENU and ORTHOTROPIC are read"},
+        BadVega{"mooney", "ENU,", "MOONEYRIVLIN,", "is not supported; supported: ENU and ORTHOTROPIC"},
         BadVega{"form", "_N1,", "_N2,", "the forms of ORTHOTROPIC are"},
         BadVega{"too_few_constants", "1e8, 0.3", "1e8", "body.veg:21: expected nu, found the end of the line"},
         BadVega{"negative", "2e6", "-2e6", "body.veg:19: E is -2000000; it must be positive"},

@@ -39,7 +39,7 @@ std::string refusal(const std::string& text) {
   return refusal_of([&] { load(text); });
 }
 
-// The same with appended data, raw or in base64, of either byte order and width of lengths.
+// The same mesh with appended data, raw or base64, in either byte order and with either width of lengths.
 class Appended {
  public:
   Appended(bool big, bool wide, bool base64)
@@ -111,7 +111,7 @@ TEST(Vtu, TruncatedAppendedDataAreRefused) {
   }
 }
 
-// Lengths and data as one base64 text, as some writers do: the last group holds bytes of both.
+// Lengths and data in one base64 text, as some writers do: a group may contain bytes of both.
 TEST(Vtu, AHeaderAndASingleByteMayShareAGroupOfBase64) {
   std::string one = replaced(kAscii, "NumberOfCells=\"2\"", "NumberOfCells=\"1\"");
   one = replaced(replaced(one, "7 -3", "7"), "1 0 0 0 0.5 nan", "1 0 0");
@@ -142,7 +142,7 @@ std::string packed_zeros(std::uint32_t count) {
   return bytes;
 }
 
-// Two cells with `arrays` arrays of zeros, all of them the same compressed block.
+// Two cells with `arrays` arrays of zeros that share one compressed block.
 std::string zeros(int arrays, int components, std::string (*change)(std::string) = nullptr) {
   const auto size = static_cast<std::uint32_t>(2 * 8 * components);
   std::string block = packed_zeros(size);
@@ -197,10 +197,10 @@ TEST(Vtu, TurnsElementsThatCountTheOtherWayRound) {
   const LoadedMesh loaded = load(replaced(kAscii, "0 1 2 3 1 2 3 4", "0 1 3 2 1 2 4 3"));
   EXPECT_EQ(loaded.mesh.tets, load(kAscii).mesh.tets);
   ASSERT_EQ(loaded.warnings.size(), 1u);
-  EXPECT_CONTAINS(loaded.warnings[0], "all 2 elements count their nodes the other way round");
+  EXPECT_CONTAINS(loaded.warnings[0], "all 2 elements list their nodes in inverted order");
   const LoadedMesh one = load(replaced(kAscii, "0 1 2 3 1 2 3 4", "0 1 2 3 1 2 4 3"));
   EXPECT_EQ(one.mesh.tets, load(kAscii).mesh.tets);
-  EXPECT_CONTAINS(one.warnings.at(0), "1 of 2 elements count their nodes the other way round, the first is element 1");
+  EXPECT_CONTAINS(one.warnings.at(0), "1 of 2 elements list their nodes in inverted order, the first is element 1");
 }
 
 struct BadVtu {
@@ -250,7 +250,7 @@ TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n42\n")), "polyhedron");
 }
 
-// The table of colours may be left out; then numbers begin in the next line.
+// LOOKUP_TABLE is optional; without it, numbers start on the next line.
 TEST(Vtk, ScalarsMayHaveNoLookupTable) {
   const std::string mesh =
       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"

@@ -28,7 +28,7 @@ std::string whole(const std::vector<std::string>& parts) {
   return text;
 }
 
-// As VTK's vtkStringArray is stored, which ParaView shows as names.
+// The storage of VTK's vtkStringArray, which ParaView shows as names.
 TEST(VtuText, HoldsNamesOfRegionsAsStrings) {
   for (const auto storage : {VtuStorage::ascii, VtuStorage::raw})
     EXPECT_CONTAINS(whole(vtu_text(two_tets(), storage)),

@@ -1,4 +1,4 @@
-// The dense output of one-step methods.
+// The dense output of one-step methods, by Hermite interpolation.
 #include "lib/ode/hermite.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ Vector one(double x) { return Vector::Constant(1, x); }
 
 StepEnd on_sine(double t) { return {t, one(std::sin(t)), one(std::cos(t)), one(-std::sin(t))}; }
 
-// x = t^5 - 2 t^3 + t
+// The position t^5 - 2 t^3 + t, with its velocity and acceleration.
 StepEnd on_quintic(double t) {
   return {t, one(std::pow(t, 5) - 2 * std::pow(t, 3) + t), one(5 * std::pow(t, 4) - 6 * t * t + 1),
           one(20 * std::pow(t, 3) - 12 * t)};
@@ -40,7 +40,7 @@ TEST(Hermite, TheEndsAreReproducedToTheLastBit) {
   EXPECT_EQ(between(begin, end, 0.7).v, end.v);
 }
 
-// Halving the step divides the error of q by 2^6, that of v by 2^5.
+// Halving the step divides the error of q by 2^6 and that of v by 2^5.
 TEST(Hermite, PositionHasOrderSixAndVelocityOrderFive) {
   const auto error = [](double h) {
     const double t = 0.4 + 0.3 * h;

@@ -1,4 +1,4 @@
-// When a Linearization is kept and when it is assembled again.
+// The conditions under which a Linearization is reused or assembled again.
 #include <gtest/gtest.h>
 
 #include "lib/core/errors.h"
@@ -7,7 +7,7 @@
 namespace orthodyn::linearization_test {
 namespace {
 
-// q'' = -k q - d q', which counts its assemblies.
+// The oscillator q'' = -k q - d q' (primes: time derivatives). Counts its assemblies.
 class Oscillator : public Model {
  public:
   Oscillator(double k, double d, bool linear) : k_(k), d_(d) {
@@ -27,7 +27,7 @@ class Oscillator : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { y = x; }
   void solve_mass(VectorRef) const override {}
 
-  // K and D, 0 where there is no D.
+  // K and D; D = 0 if there is no damping.
   std::pair<double, double> matrices(Linearization& at) const {
     linearize(0, Vector::Zero(1), Vector::Zero(1), TangentKind::exact, at);
     return {at.stiffness[0], at.damping.empty() ? 0 : at.damping[0]};
@@ -68,7 +68,7 @@ TEST(Linearization, IsNotTakenForThatOfAnotherModelOfTheSameSize) {
   const Oscillator soft(4, 0.5, true), stiff(9, 0, true), varying(25, 0, false);
   Linearization at;
   EXPECT_EQ(soft.matrices(at), std::pair(4.0, 0.5));
-  EXPECT_EQ(stiff.matrices(at), std::pair(9.0, 0.0));  // the damping of the other is gone
+  EXPECT_EQ(stiff.matrices(at), std::pair(9.0, 0.0));  // the damping of `soft` is removed
   EXPECT_EQ(soft.matrices(at), std::pair(4.0, 0.5));
   EXPECT_EQ(varying.matrices(at), std::pair(25.0, 0.0));
   EXPECT_EQ(soft.matrices(at), std::pair(4.0, 0.5));
@@ -80,7 +80,7 @@ TEST(Linearization, IsNotTakenForThatOfACopy) {
   model.matrices(at);
   const Oscillator copy = model;  // NOLINT
   copy.matrices(at);
-  EXPECT_EQ(copy.assemblies, 2);  // the copy began with one
+  EXPECT_EQ(copy.assemblies, 2);  // one of them before the copy
 }
 
 TEST(Linearization, ThatCouldNotBeAssembledIsTriedAgain) {

@@ -1,4 +1,4 @@
-// How long steps may be for what a function of time does.
+// Step limits derived from a function of time, so that steps resolve its variation.
 #include "lib/ode/step_limits.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 const double kInfinite = std::numeric_limits<double>::infinity();
 
-// The ends of steps as long as they may be.
+// End times of the longest steps allowed.
 std::vector<double> longest_steps(const StepLimits& limits, double start, double end) {
   std::vector<double> ends;
   for (double t = start; t < end;) ends.push_back(t = std::min(end, limits.latest_end(t)));
@@ -39,7 +39,7 @@ TEST(StepLimits, AreNoneForRoundOff) {
 
 TEST(StepLimits, LetNoStepPassOverAPulse) {
   const double at = 6.0123, width = 1e-3;
-  for (const double height : {1.0, -1e-3}) {  // beside 1
+  for (const double height : {1.0, -1e-3}) {  // added to a constant of 1
     const auto pulse = [&](double t) { return 1 + height * std::exp(-std::pow((t - at) / width, 2)); };
     const auto limits = StepLimits::of(pulse, 0, 10, {});
     const auto ends = longest_steps(limits, 0, 10);
@@ -70,7 +70,7 @@ TEST(StepLimits, KnowAJumpThatIsNoKink) {
 }
 
 TEST(StepLimits, TakeAKinkForNoJump) {
-  const double width = 2.5e-3;  // of a half sine that begins and ends between samples
+  const double width = 2.5e-3;  // of a half sine that starts and ends between samples
   for (const double begin : {0.0, 0.3001234}) {
     const auto half_sine = [&](double t) {
       return t > begin && t < begin + width ? std::sin(std::numbers::pi * (t - begin) / width) : 0;
@@ -80,7 +80,8 @@ TEST(StepLimits, TakeAKinkForNoJump) {
     const auto ends = longest_steps(limits, 0, 1);
     EXPECT_TRUE(std::ranges::any_of(ends, [&](double t) { return t > begin && t < begin + width; }));
   }
-  const auto triangle = [](double t) { return std::max(0.0, 1 - std::abs(t - 0.3) / 1e-5); };  // between two samples
+  // Lies between two samples.
+  const auto triangle = [](double t) { return std::max(0.0, 1 - std::abs(t - 0.3) / 1e-5); };
   EXPECT_TRUE(StepLimits::of(triangle, 0, 1, {}).unresolved());
 }
 

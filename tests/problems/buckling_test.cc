@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Round-off times the condition of the thinnest strip, h = 0.004: across it one element of E A/(h/2) = 6e8 N/m, in
-// bending 12.4 E I/L^3 = 3 N/m over some 1,300 nodes. Twice that.
+// Twice the round-off times the condition number of the thinnest strip, h = 0.004: stiffness E A/(h/2) = 6e8 N/m of one
+// element through the thickness over 12.4 E I/L^3 = 3 N/m in bending, times some 1,300 nodes.
 constexpr double kResidual = 2 * 2.2e-16 * 6e8 / (3.0 / 1300);
 
 double first_factor(const std::string& yaml) {
@@ -27,7 +27,7 @@ double first_factor(const std::string& yaml) {
   return modes[0].load_factor;
 }
 
-// A strip of length 1, width 0.05 and thickness h in z, and what is beyond its end.
+// A strip of length 1, width 0.05 and thickness h in z, optionally extended beyond its end.
 std::string strip(double h, double beyond, const std::string& clamps, const std::string& material) {
   return fmt::format(R"(
 mesh: {{type: box, size: [{}, 0.05, {}], cells: [44, 1, 2]}}
@@ -43,7 +43,7 @@ constexpr double kYoung = 1e9;
 const std::string kIsotropicMaterial = "{type: isotropic, density: 1000, young: 1e9, nu: 0}";
 double bending_stiffness(double h) { return kYoung * 0.05 * h * h * h / 12; }
 
-// The line in the middle of an end.
+// The centre line of an end face.
 std::string pin(double x, double h, const std::string& components) {
   return fmt::format("{{box: {{min: [{0}, 0, {1}], max: [{0}, 0.05, {1}]}}, components: {2}}}", x, h / 2, components);
 }
@@ -51,7 +51,7 @@ std::string pin(double x, double h, const std::string& components) {
 TEST(EulersColumn, HasItsFourCriticalLoads) {
   const double h = 0.004, pi2 = kPi * kPi;
   const std::string fixed = "{surface: x0}";
-  // A tenth of the length more, which can only slide along x, holds the end's slope.
+  // An extension of a tenth of the length that can only slide along x fixes the slope at the end.
   const std::string slides = "{box: {min: [1, 0, 0], max: [1.1, 0.05, 0.004]}, components: [y, z]}";
   const struct {
     const char* name;
@@ -74,8 +74,8 @@ TEST(EulersColumn, HasItsFourCriticalLoads) {
 TEST(EngessersColumn, SoftInShearBucklesSooner) {
   const double h = 0.05, shear = 5e6;
   const std::string wood = fmt::format(
-      "{{type: orthotropic, density: 400, young: [1e9, 1e9, 1e9], nu12: 0, nu23: 0, nu31: 0, g12: 5e8, g23: 5e8, "
-      "g13: {}}}",
+      "{{type: orthotropic, density: 400, young: [1e9, 1e9, 1e9], nu12: 0, nu23: 0, nu31: 0, g12: 5e8, g23: 5e8, g13: "
+      "{}}}",
       shear);
   const double euler = kPi * kPi / 4 * bending_stiffness(h),
                expected = 1 / (1 / euler + 1 / (5.0 / 6 * shear * 0.05 * h));
@@ -83,8 +83,8 @@ TEST(EngessersColumn, SoftInShearBucklesSooner) {
   EXPECT_NEAR(first_factor(strip(h, 0, "[{surface: x0}]", wood)), expected, 0.02 * expected);
 }
 
-// 3 E I/R^3 where the pressure stays normal to the ring (Bresse 1866), R the radius of its axis wherever it acts; 4 E
-// I/R^3 if it kept its direction.
+// 3 E I/R^3 for pressure that stays normal to the ring (Bresse 1866), with the radius R of the axis; 4 E I/R^3 for
+// pressure with a fixed direction.
 TEST(Ring, UnderPressureThatFollowsItBucklesAsBresseFound) {
   const double outer = 1.01, inner = 0.99, width = 0.05, h = outer - inner;
   const double found = first_factor(fmt::format(R"(

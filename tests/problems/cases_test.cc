@@ -1,4 +1,4 @@
-// Every case of configs/cases meets its expectations.
+// Every case in configs/cases meets its expectations.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Contact that comes and goes, from soft to far stiffer than the body, makes no energy.
+// Intermittent contact does not create energy, whether softer or much stiffer than the body.
 #include <gtest/gtest.h>
 
 #include "lib/simulation/output/balance.h"
@@ -28,8 +28,7 @@ std::vector<Fall> falls() {
 
 class Contact : public testing::TestWithParam<Fall> {};
 
-// Seen of BDF before each correction at a kink was followed by another one: up to 3,000 times the energy that there
-// was.
+// BDF with a single Newton correction at a kink created up to 3,000 times the initial energy.
 TEST_P(Contact, MakesNoEnergy) {
   const Fall& fall = GetParam();
   const BuiltTestScene s(fmt::format(R"(
@@ -54,7 +53,7 @@ integrator: {{type: {}, rtol: {}}}
       run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   const double fallen = 1 * 9.81 * 0.05;    // J, kg m/s^2 m
-  EXPECT_GT(energy.scale(), 0.9 * fallen);  // it has fallen; soft ground lets it fall further
+  EXPECT_GT(energy.scale(), 0.9 * fallen);  // after the fall; soft ground lets it fall further
   const double rtols = std::string(fall.integrator) == "arkode_dirk" ? 50 : 10;
   EXPECT_LE(energy.largest, rtols * fall.rtol * fallen);
   if (fall.rtol < 1e-2) {
@@ -64,7 +63,7 @@ integrator: {{type: {}, rtol: {}}}
 
 INSTANTIATE_TEST_SUITE_P(Ground, Contact, testing::ValuesIn(falls()));
 
-// Linearly implicit steps leave an imbalance where a stiff body turns, which all points the same way.
+// Linearly implicit steps leave an imbalance with a constant sign in a stiff rotating body.
 TEST(Pendulum, OnOneNodeGainsNoEnergyByRosenbrocksMethod) {
   const BuiltTestScene s(R"(
 mesh: {type: box, size: [0.1, 0.1, 0.5], cells: [2, 2, 6], order: 1}

@@ -1,4 +1,4 @@
-// What stiffness-proportional damping takes is what loads have given, whichever method integrates.
+// Energy balance with stiffness-proportional damping: dissipation equals the work of the loads, for every method.
 #include <gtest/gtest.h>
 
 #include "lib/simulation/output/balance.h"
@@ -7,7 +7,7 @@
 namespace orthodyn::energy_account_test {
 namespace {
 
-// A beam comes to rest under a load that is there at once: half of its work is dissipated, the other half is elastic.
+// A suddenly loaded beam comes to rest: half of the work is dissipated, the other half is elastic.
 const std::string kBeam = R"(
 mesh: {type: box, size: [1, 0.2, 0.2], cells: [6, 2, 2], order: 1}
 materials: {wood: {type: preset, name: sitka_spruce, density: 400}}

@@ -1,5 +1,5 @@
-// Bodies on which nothing acts: energy and momentum of the exact force are constant up to the
-// integrator's error; the warped force gains energy and spins up by itself.
+// Free bodies: with the exact force, energy and momentum are constant up to the integrator's error; with the warped
+// force they grow.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST(FreeFlight, KeepsLinearMomentumToRoundOffAtAnyTolerance) {
   EXPECT_LE(drift({.spin = "[0.5, 1, 2]", .rtol = 1e-3, .max_order = 2}).linear, 1e-12);
 }
 
-// Angular momentum to 100 rtol.
+// Angular momentum is conserved to 100 rtol.
 TEST(FreeFlight, ReleasedAtRestTheBodyDoesNotBeginToSpin) {
   const Drift exact = drift({});
   EXPECT_LE(exact.angular, 1e-5);
@@ -128,7 +128,7 @@ TEST(SpinningCube, DriftOverFiftyRevolutionsIsLinearAndFallsWithTheTolerance) {
   EXPECT_LE(tight.energy, 1e-3);
 }
 
-// A problem and the same one turned give trajectories that differ by the turn.
+// Rotating a problem rotates its trajectory.
 TEST(FreeFlight, OfATurnedBodyIsTheTurnedFlight) {
   const double rtol = 1e-6;
   const Mat3 R = Eigen::AngleAxisd(0.9, Vec3(3, -1, 2).normalized()).toRotationMatrix();

@@ -1,6 +1,5 @@
-// Starts that no mesh should ever be in: collapsed, mirrored, random. What energy they lose is what the damping takes,
-// everything stays finite, and no exception is thrown. That the rest shape is found again is not asked: inverted
-// equilibria are physical.
+// Extreme initial shapes: collapsed, mirrored, random. The energy lost equals the dissipation, all values stay finite,
+// and no exception is thrown. Returning to the rest shape is not required: inverted equilibria are physical.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -62,11 +61,11 @@ time: {{end: 10}}
     const auto outcome =
         run(scene.model(), *method, scene.built.initial, {scene.scene.time.end, {}, false}, {&energy}, {false});
     EXPECT_EQ(outcome.status, Outcome::Status::completed) << ratio << ": " << outcome.message;
-    // The energy's error is that of the state, 1e-5^(2/3) = 5e-4 of it, times the sum of about ten
+    // The relative error of the energy is that of the state, 1e-5^(2/3) = 5e-4, summed over about ten
     // oscillations before they are damped out.
     EXPECT_TRUE(std::isfinite(energy.last().balance())) << ratio;
     EXPECT_LE(energy.drift(), 5e-3 * initial) << ratio;
-    // Damping takes what vibrates, exp(-10) of it is left; what stays is the elastic energy of inverted elements.
+    // Damping leaves exp(-10) of the vibration; the remainder is the elastic energy of inverted elements.
     EXPECT_GT(energy.last().dissipated, 0.5 * initial) << ratio;
   }
 }

@@ -1,4 +1,4 @@
-// Linear kinematics of a straight column, which carries any load at an equilibrium that does not last.
+// Linear kinematics of a straight column, whose equilibrium is unstable above the buckling load.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace orthodyn::linear_column_test {
 namespace {
 
-// Five tetrahedra a cell: with six, which are all alike, an axial load bends the column a little.
+// Five tetrahedra per cell: six equal ones would let an axial load bend the column slightly.
 const char* const kColumn = R"(
 mesh: {type: box, size: [1, 0.05, 0.01], cells: [10, 1, 1], order: 2, split: five}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
@@ -18,8 +18,8 @@ clamps: [{surface: x0}]
 
 class LinearColumn : public InFolder {};
 
-// A straight bar under an axial load moves by little and without turning; Euler's load says when that does not last:
-// `analysis: buckling` has it (tests/problems/buckling_test.cc).
+// A straight bar under axial load deforms little and without rotation up to Euler's load, which `analysis: buckling`
+// computes (tests/problems/buckling_test.cc).
 TEST_F(LinearColumn, IsGivenUpWhereItBuckles) {
   const auto along = [](double force) { return fmt::format("loads: [{{surface: x1, force: [{}, 0, 0]}}]\n", force); };
   const std::string rest = "analysis: static\nelasticity: {kinematics: auto}\n";

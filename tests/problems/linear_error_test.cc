@@ -1,8 +1,9 @@
-// How far linear kinematics are off, as a run with them tells it, against a run with the exact force.
+// The estimated error of linear kinematics, against a run with the exact force.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "lib/simulation/error_estimate/error_norms.h"
+#include "lib/simulation/error_estimate/recorders.h"
 #include "lib/simulation/run/kinematics.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
@@ -16,7 +17,7 @@ struct Case {
   std::string name, scene;
 };
 
-// A spruce board on two lines of its lower face, tapped in its middle.
+// A spruce board supported along two lines of its lower face, struck in the middle.
 std::string tapped_board(double force) {
   return fmt::format(R"(
 mesh: {{type: box, size: [0.4, 0.06, 0.004], cells: [12, 2, 1]}}
@@ -58,7 +59,7 @@ std::vector<Case> cases() {
   add("struck", beam("initial: {velocity: [0, 0, 1]}", "time: {end: 0.25}"));
   add("shaken", beam(across(20, kFactor), "time: {end: 0.25}"));
   add("shaken_damped", beam(across(20, kFactor), "damping: {mass: 20}\ntime: {end: 0.3}"));
-  // No front runs through the bar: the phases of very many modes are not followed.
+  // No wave front travels through the bar: the phases of very many modes cannot be tracked.
   add("along", beam("loads: [{surface: x1, force: [1e6, 0, 0], factor: {type: expression, formula: \"t < 5e-3 ? "
                     "sin(pi*t/1e-2)^2 : 1\", kinks: [5 ms]}}]",
                     "time: {end: 0.03}"));
@@ -112,7 +113,7 @@ TEST_F(LinearErrors, AreToldOfAStaticDeflection) {
   }
 }
 
-// By the same word in the summary and in the warning.
+// The summary and the warning use the same word.
 TEST_F(LinearErrors, OfLargeRotationsAreWarnedOf) {
   write("far.yaml", beam(across(3000),
                          "time: {end: 0.1}\nintegrator: {type: cvode_bdf}\n"

@@ -1,5 +1,5 @@
-// A load factor multiplies what loads a body, also loads that follow it, beside springs, supports and gravity: against
-// the elastica, buckling pressures of rings and arches, and the balance of forces.
+// The load factor multiplies all loads, including follower loads, together with springs, supports and gravity. Compared
+// with the elastica, buckling pressures of rings and arches, and the balance of forces.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A strip, clamped at s = 0, whose upper face is under a pressure p that follows it. Its axis has the angle th and the
-// bending moment M = E I th'; a force F acts on the cut from beyond. The face is h/2 above the axis, so that its length
-// is 1 + N/(E A) - th' h/2 of that of the axis at rest, and the load on that length -p b n.
+// A strip clamped at s = 0 under follower pressure p on its upper face. The axis has the angle th and the bending
+// moment M = E I th'; F is the force on a cut from the side of the tip. The face is h/2 above the axis: per unit rest
+// length of the axis its length is 1 + N/(E A) - th' h/2, which carries the load -p b n.
 class Elastica {
  public:
   static constexpr double kWidth = 0.05, kThickness = 0.01, kYoung = 1e9;
@@ -49,7 +49,7 @@ class Elastica {
     }
     end_ = at_clamp(low);
   }
-  // From the tip inwards.
+  // Integrated from the tip inwards.
   Values slope(const Values& y) const {
     constexpr double kBending = kYoung * kWidth * kThickness * kThickness * kThickness / 12,
                      kAxial = kYoung * kWidth * kThickness;
@@ -93,8 +93,7 @@ terms: [{{type: pressure, surface: z1, pressure: {}}}]
   }
 }
 
-// A quarter of a ring of radius 1, between planes of symmetry and held along z everywhere, under pressure on its
-// outside.
+// A quarter of a ring of radius 1 between planes of symmetry, fixed along z everywhere, under external pressure.
 std::string ring(bool follows, double pressure, const std::string& analysis) {
   constexpr int kAround = 48;
   constexpr double kOuter = 1.01, kInner = 0.99, kDepth = 0.05;
@@ -123,10 +122,10 @@ time: {{end: 1}}
                      analysis, pressure, follows);
 }
 
-// Of a ring with the radius 1 of its axis, which keeps its length. Pressure on its outside, r = 1 + h/2, that follows
-// it has the energy p times the area within: that within the axis and constants, so p = 3 E I (Bresse 1866). Where it
-// keeps its direction, the force p r of a unit angle goes inwards by (1/2 + h/4) th^2 where the section turns by th, in
-// place of th^2/2: p r (1 + h/2) = 4 E I (Boresi 1955 for a force on the axis).
+// Critical pressure of an inextensible ring with axis radius 1. Follower pressure on the outside, r = 1 + h/2, has the
+// potential p times the enclosed area, which equals the area within the axis plus a constant: p = 3 E I (Bresse 1866).
+// With a fixed direction, the force p r per unit angle moves inwards by (1/2 + h/4) th^2 for a section rotation th,
+// instead of th^2/2: p r (1 + h/2) = 4 E I (Boresi 1955, for a force on the axis).
 double critical_pressure(bool follows) {
   constexpr double kBending = 1e9 * 0.02 * 0.02 * 0.02 / 12, kOuter = 1.01;
   return follows ? 3 * kBending : 4 * kBending / (kOuter * kOuter);
@@ -161,10 +160,10 @@ TEST(Ring, HasModesAboutRestThatNoPressureChanges) {
   };
   const double pressure = critical_pressure(true) / 2, without = lowest(0, 0);
   EXPECT_NEAR(lowest(pressure, 0), without, 1e-9 * without);
-  EXPECT_GT(std::abs(lowest(pressure, 1) - without), 1e-3 * without);  // so that there is something to leave out
+  EXPECT_GT(std::abs(lowest(pressure, 1) - without), 1e-3 * without);  // a spring to leave out
 }
 
-// A shallow arch between clamps under pressure that follows its upper side.
+// A shallow arch between clamps under follower pressure on its upper side.
 double limit_pressure(double asked, bool follows) {
   constexpr double kRise = 0.04, kDepth = 0.02;
   TetMesh mesh = make_box({.size = {1, 0.05, kDepth}, .cells = {24, 1, 1}});
@@ -200,8 +199,8 @@ TEST(ShallowArch, HasOneLimitPressureWhateverPressureIsAskedFor) {
   }
 }
 
-// Every state of a path is an equilibrium of springs, supports and the load factor's share of the loads. The path
-// begins where the springs alone hold the body.
+// Every state of a path is an equilibrium of springs, supports and the loads times the load factor. The path begins at
+// the equilibrium with the springs only.
 TEST(LoadFactor, IsThatOfEachEquilibriumBesideSpringsAndMovedSupports) {
   const BuiltTestScene beam(R"(
 analysis: static
@@ -240,7 +239,7 @@ time: {end: 1}
   EXPECT_GE(problem.stepper->steps(), 2);
 }
 
-// A column whose end is pulled by a spring against the load: the spring is no load.
+// A column whose end is pulled by a spring against the load: the load factor does not multiply the spring.
 TEST(LoadFactor, OfBucklingDoesNotMultiplyAStretchedSpring) {
   const auto column = [](double tension) {
     constexpr double kStiffness = 1e-3;

@@ -1,4 +1,4 @@
-// Modal integration of bodies: against all modes, against statics, and what it says of the modes it leaves out.
+// Modal integration of bodies: against all modes, against statics, and its report on omitted modes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 namespace orthodyn::modal_test {
 namespace {
 
-// A linear cantilever of 360 unknowns, its grain oblique: 51 Hz.
+// A linear cantilever with 360 unknowns and oblique grain: 51 Hz.
 BuiltTestScene beam(const std::string& rest) {
   return BuiltTestScene(R"(
 mesh: {type: box, size: [1, 0.1, 0.1], cells: [13, 2, 2], order: 1}
@@ -34,7 +34,7 @@ std::unique_ptr<Integrator> made(const BuiltTestScene& s, const std::string& opt
   return choice->make(s.model(), task_of(s.scene, s.built));
 }
 
-// At times that lie closer to each other at the start, the last of them the end.
+// Output times, denser at the start, including the end.
 std::vector<State> states(const BuiltTestScene& s, Integrator& integrator, int count) {
   std::vector<State> out;
   Plan plan{.end = s.scene.time.end, .output_times = evenly_spaced(0, 1, count)};
@@ -52,7 +52,7 @@ double mass_norm(const BuiltTestScene& s, const Vector& q) {
   return std::sqrt(q.dot(Mq));
 }
 
-// The modes are found by another solver and put together by other formulas.
+// Uses another eigenvalue solver and other formulas.
 TEST(Modal, WithAllModesIsTheExactSolution) {
   for (const std::string more : {"clamps: [{surface: x0}]\ngravity: [0, 0, -4]\ntime: {end: 0.3}\n",
                                  "clamps: [{surface: x0}]\ngravity: [0, 0, -4]\ndamping: {stiffness: 1e-3, mass: 2}\n"
@@ -88,7 +88,8 @@ Vector static_deflection(const BuiltTestScene& s, const Vector& load) {
   return u;
 }
 
-// A point load that grows over 100 periods of the first mode. The modes alone miss the dent beneath it.
+// A point load that grows over 100 periods of the first mode. The modes alone miss the local deformation under the
+// load.
 TEST(Modal, EndsAtTheStaticDeflectionOfALoadThatGrowsSlowly) {
   const auto scene = beam(
       "clamps: [{surface: x0}]\nterms: [{type: point_load, nearest: [1, 0, 0], force: [0, 30, 100], factor: {type: "
@@ -97,14 +98,14 @@ TEST(Modal, EndsAtTheStaticDeflectionOfALoadThatGrowsSlowly) {
   const State last = states(scene, *integrator, 20).back();
   const Vector u = static_deflection(scene, scene.force(scene.zero(), scene.zero(), 4));
   EXPECT_LE((last.q - u).norm(), 1e-6 * u.norm());
-  // What five modes hold of it.
+  // The part represented by five modes.
   const Eigen::MatrixXd M = scene.mass(), K = scene.stiffness(scene.zero());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, M);
   const Eigen::MatrixXd phi = modes.eigenvectors().leftCols(5);
   EXPECT_GE((phi * (phi.transpose() * (M * u)) - u).norm(), 1e-3 * u.norm());
 }
 
-// A free body's: what is left out deforms it though nothing holds it.
+// A free body: the static correction deforms it although it is not supported.
 TEST(Modal, DeformsAFreeBodyUnderASlowLoad) {
   const auto scene = beam(
       "loads: [{surface: x1, force: [100, 0, 0], factor: {type: smooth_step, end: 2}}, {surface: x0, force: [-100, 0, "
@@ -125,7 +126,7 @@ double told(const Integrator& integrator) {
   return 0;
 }
 
-// The largest difference in the mass norm, relative to the largest motion.
+// Largest difference in the mass norm, relative to the largest motion.
 double left_out(const BuiltTestScene& scene, Integrator& few) {
   const auto all = made(scene, "type: modal, modes: 10000, rtol: 1e-8");
   const auto got = states(scene, few, 400), expected = states(scene, *all, 400);
@@ -137,15 +138,14 @@ double left_out(const BuiltTestScene& scene, Integrator& few) {
   return error / motion;
 }
 
-// Suddenly loaded; struck; shaken below, and by a load with kinks.
+// Suddenly loaded; with an initial velocity; with moving supports; with a load that has kinks.
 TEST(Modal, TellsWhatItLeavesOutWithinAFactorOfThree) {
-  for (const std::string more :
-       {"gravity: [0, 0, -4]\n", "gravity: [0, 0, -4]\ndamping: {stiffness: 1e-4}\n",
-        "initial: {velocity_field: [0, 0, \"x^4\"]}\n",
-        "loads: [{surface: x1, force: [0, 0, 10], factor: {type: sine, frequency: 20 Hz}}]\n",
-        "loads: [{surface: x1, force: [0, 20, 10], factor: {type: ramp, end: 0.05}}]\n",
-        "loads: [{surface: z1, force: [0, 20, 10], factor: {type: sine, frequency: 20 Hz}}]\ndamping: {stiffness: "
-        "1e-4}\n"}) {
+  for (const std::string more : {"gravity: [0, 0, -4]\n", "gravity: [0, 0, -4]\ndamping: {stiffness: 1e-4}\n",
+                                 "initial: {velocity_field: [0, 0, \"x^4\"]}\n",
+                                 "loads: [{surface: x1, force: [0, 0, 10], factor: {type: sine, frequency: 20 Hz}}]\n",
+                                 "loads: [{surface: x1, force: [0, 20, 10], factor: {type: ramp, end: 0.05}}]\n",
+                                 "loads: [{surface: z1, force: [0, 20, 10], factor: {type: sine, frequency: 20 "
+                                 "Hz}}]\ndamping: {stiffness: 1e-4}\n"}) {
     const auto scene = beam(more + "clamps: [{surface: x0}]\ntime: {end: 0.3}\n");
     for (const int modes : {6, 20}) {
       const auto few = made(scene, fmt::format("type: modal, modes: {}, rtol: 1e-8", modes));
@@ -156,7 +156,7 @@ TEST(Modal, TellsWhatItLeavesOutWithinAFactorOfThree) {
   }
 }
 
-// A single step goes over sixteen periods of the first mode.
+// A single step covers sixteen periods of the first mode.
 TEST(Modal, BalancesTheEnergyOverAStepOfManyPeriods) {
   const auto scene = beam("clamps: [{surface: x0}]\ngravity: [0, 0, -4]\ndamping: {stiffness: 1e-4}\ntime: {end: 1}\n");
   const auto integrator = made(scene, "type: modal, modes: 20");
@@ -192,7 +192,7 @@ TEST(Modal, FindsAllEventsInAStepOfManyPeriods) {
   EXPECT_EQ(count.events, changes);
 }
 
-// Cases with known figures, which look into its steps: moved supports, reactions, maxima, frequencies, energies.
+// Cases with known values that use states within steps: moved supports, reactions, maxima, frequencies, energies.
 TEST(Modal, MeetsTheExpectationsOfLinearCases) {
   for (const std::string name :
        {"base_excited_oscillator", "base_excited_consistent", "bar_ramp_load", "bar_step_load", "bar_frequency_lumped",
@@ -249,7 +249,7 @@ TEST(Modal, RefusesDashpotsGroundAndTooFewModesForAStart) {
          "use no ground");
   expect(refusal("", "type: modal, modes: 5"), "ask for more modes");
   expect(refusal(clamp + "initial: {velocity_field: [0, 0, \"x > 0.9 ? 1 : 0\"]}\n", "type: modal, modes: 1"),
-         "keep more of them");
+         "keep more modes");
 }
 
 }  // namespace

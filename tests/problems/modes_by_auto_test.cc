@@ -1,5 +1,5 @@
-// Runs of linear scenes with the modes that `auto` takes, against one with all modes, which is exact in time; and the
-// faster way that `orthodyn check` tells of.
+// Linear scenes with the modes chosen by `auto`, against all modes, which are exact in time; and the faster method that
+// `orthodyn check` suggests.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lib/simulation/error_estimate/error_norms.h"
+#include "lib/simulation/error_estimate/recorders.h"
 #include "lib/simulation/preflight/faster_setup.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
@@ -22,8 +23,8 @@ std::string beam(const std::string& rest, const std::string& kinematics = "linea
 }
 
 const std::string kTapped =
-    "terms: [{type: point_load, nearest: [1, 0, 0.1], force: [0, 0, -2], factor: {type: "
-    "expression, formula: \"t < 2e-3 ? sin(pi*t/2e-3) : 0\", kinks: [2 ms], peak: 1}}]\n"
+    "terms: [{type: point_load, nearest: [1, 0, 0.1], force: [0, 0, -2], factor: {type: expression, formula: \"t < "
+    "2e-3 ? sin(pi*t/2e-3) : 0\", kinks: [2 ms], peak: 1}}]\n"
     "time: {end: 1}";
 const std::string kStep = "loads: [{surface: x1, force: [0, 0, -10]}]\ntime: {end: 1}";
 Setup set_up_with(const std::string& scene, const std::string& integrator) {
@@ -70,7 +71,7 @@ TEST_P(LinearMotion, IsThatOfAllModesWithinTheTolerance) {
   EXPECT_LT(errors.velocity.max, 20 * rtol) << decision(chosen, "because");
 }
 
-// A pulse of a thousandth of the time, long after the start, which no even look at the load sees.
+// A pulse of a thousandth of the time, long after the start; evenly spaced samples of the load would miss it.
 TEST(ModesByAuto, FollowAShortPulseLate) {
   const std::string scene = beam(
       "loads: [{surface: x1, force: [0, 0, -10], factor: {type: expression, formula: \"t > 0.6 && t < 0.601 ? "
@@ -82,7 +83,7 @@ TEST(ModesByAuto, FollowAShortPulseLate) {
   EXPECT_LT(errors.displacement.max, 2e-3) << decision(chosen, "because");
 }
 
-// A spruce board on two lines, tapped in its middle.
+// A spruce board supported along two lines, struck in the middle.
 std::string board(double force, const std::string& kinematics) {
   return fmt::format(R"(
 mesh: {{type: box, size: [0.4, 0.06, 0.004], cells: [12, 2, 1]}}
@@ -101,13 +102,13 @@ integrator: {{type: arkode_dirk, rtol: 1e-4}}
                      kinematics, force);
 }
 
-std::optional<FasterWay> faster_way_of(const std::string& scene) {
+std::optional<FasterSetup> faster_way_of(const std::string& scene) {
   const orthodyn::Setup setup = set_up(Config::from_text(scene));
   setup.integrator->start(setup.built.initial);
-  return faster_way(setup, run_cost(setup, term_costs(*setup.built.model, setup.built.initial, 0.05)));
+  return faster_setup(setup, run_cost(setup, term_costs(*setup.built.model, setup.built.initial, 0.05)));
 }
 
-TEST(FasterWay, IsLinearKinematicsAndModesOfSmallVibrations) {
+TEST(FasterSetup, IsLinearKinematicsAndModesOfSmallVibrations) {
   const auto way = faster_way_of(board(2, "corotational"));
   ASSERT_TRUE(way);
   EXPECT_EQ(way->changes,
@@ -115,7 +116,7 @@ TEST(FasterWay, IsLinearKinematicsAndModesOfSmallVibrations) {
   EXPECT_TRUE(way->method.starts_with("modal, ")) << way->method;
 }
 
-TEST(FasterWay, IsTheMethodAloneWhereKinematicsAreLinear) {
+TEST(FasterSetup, IsTheMethodAloneWhereKinematicsAreLinear) {
   const auto way = faster_way_of(board(2, "linear"));
   ASSERT_TRUE(way);
   EXPECT_EQ(way->changes, std::vector<std::string>{"integrator: {type: auto, rtol: 0.0001}"});
@@ -123,24 +124,24 @@ TEST(FasterWay, IsTheMethodAloneWhereKinematicsAreLinear) {
 }
 
 // Geometric stiffness makes the error of a shallow deflection grow with its square.
-TEST(FasterWay, TellsAnErrorThatGrowsWithTheSquareOfTheLoad) {
+TEST(FasterSetup, TellsAnErrorThatGrowsWithTheSquareOfTheLoad) {
   const auto error = [](double force) { return *faster_way_of(board(force, "corotational"))->error; };
   const double ratio = error(2) / error(0.2);
   EXPECT_GT(ratio, 10);
   EXPECT_LT(ratio, 150);
 }
 
-TEST(FasterWay, HasNoErrorToTellOfMotionsThatLoadsDoNotMake) {
+TEST(FasterSetup, HasNoErrorToTellOfMotionsThatLoadsDoNotMake) {
   const auto struck = faster_way_of(board(2, "corotational") + "initial: {velocity_field: [0, 0, x]}\n");
   ASSERT_TRUE(struck);
   EXPECT_TRUE(std::isinf(*struck->error));
   EXPECT_FALSE(struck->pays());
 }
 
-TEST(FasterWay, PaysWhereItSavesMuchAndCostsLittle) {
-  const FasterWay way{.changes = {}, .method = {}, .now = 30, .then = 9, .error = 0.019};
+TEST(FasterSetup, PaysWhereItSavesMuchAndCostsLittle) {
+  const FasterSetup way{.changes = {}, .method = {}, .now = 30, .then = 9, .error = 0.019};
   EXPECT_TRUE(way.pays());
-  FasterWay slow = way, wrong = way;
+  FasterSetup slow = way, wrong = way;
   slow.then = 11;
   wrong.error = 0.021;
   EXPECT_FALSE(slow.pays());

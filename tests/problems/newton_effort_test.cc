@@ -1,4 +1,4 @@
-// How many iterations of Newton's method a step takes on scenes that are shipped.
+// Newton iterations per step on shipped scenes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@ namespace {
 
 struct Shipped {
   const char* name;
-  double end;  // s, of a part of its motion
+  double end;  // s, a part of the motion
 };
 
 class NewtonEffort : public testing::TestWithParam<Shipped> {};
 
-// Turning strips: an old matrix is wrong after a few steps. SUNDIALS' own schedule and iteration spend three iterations
-// before it is given up, and three more with a new one, on both scenes.
+// Rotating strips: a matrix is outdated after a few steps. SUNDIALS' default schedule spends three iterations before it
+// updates the matrix, and three more with the new one, on both scenes.
 constexpr double kIterationsWithOldFirst = 6;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, NewtonEffort, testing::Values(Shipped{"cantilever", 0.25}, Shipped{"twist", 0.6}),
@@ -35,7 +35,7 @@ TEST_P(NewtonEffort, OfBdfIsNotSpentOnOldMatrices) {
   const auto steps = static_cast<double>(done.steps);
   ASSERT_GT(steps, 50);
   EXPECT_LT(static_cast<double>(done.newton_iterations), kIterationsWithOldFirst * steps);
-  // One for each try of a step.
+  // One per attempted step.
   EXPECT_LE(done.tangent.count, done.steps + done.error_test_failures + done.convergence_failures);
 }
 

@@ -24,7 +24,7 @@ Elastica elastica(double degrees) {
   return {std::pow(2 * K / std::numbers::pi, 2), 2 * std::comp_ellint_2(k) / K - 1, 2 * k / K};
 }
 
-// How far the end of a column of unit length is pushed across by P = a^2 E I.
+// Transverse end displacement of a column of unit length under P = a^2 E I.
 double pushed_across(double a) {
   const auto theta = [](double k) { return std::asin(std::min(1 / (k * std::numbers::sqrt2), 1.0)); };
   double low = 1 / std::numbers::sqrt2, high = 1 - 1e-12;
@@ -37,7 +37,7 @@ double pushed_across(double a) {
 
 class Column {
  public:
-  // Pressed by `times` Euler's load, pushed aside by a share of it.
+  // Compressed by `times` Euler's load, with a transverse load of a fraction of it.
   Column(double times, double aside, const std::string& statics)
       : scene_(fmt::format(R"(
 analysis: static
@@ -58,7 +58,7 @@ loads: [{{surface: x1, force: [{}, 0, {}]}}]
   }
   const LoadStepper& stepper() const { return *problem_.stepper; }
   long factorizations() const { return problem_.solver->statistics().factorization.count; }
-  // Of steps that are easy enough to be doubled: four iterations, and one for the tangent.
+  // Linear solves per step that is easy enough to double the next: four iterations and one for the tangent.
   long few_factorizations() const { return 5 * (stepper().steps() + stepper().rejected()); }
 
  private:
@@ -81,7 +81,7 @@ TEST(PressedColumn, BendsLikeTheElastica) {
   }
 }
 
-// Straight, until it buckles at Euler's load, and from there to one side or the other.
+// Straight up to Euler's load, then buckled to either side.
 TEST(PressedColumn, LeavesTheStraightPathWhereEulerSays) {
   const Elastica expected = elastica(120);
   Column column(expected.load, 0, "{at_limit: jump}");
@@ -94,17 +94,18 @@ TEST(PressedColumn, LeavesTheStraightPathWhereEulerSays) {
   EXPECT_EQ(column.stepper().unstable(), 0);
 }
 
-// It leaves the straight path by a 500th of its length (2 % of the motion's size, a tenth of the length). Steps that
-// double from there are as long as itself after nine; four lead up to Euler's load, off and to all loads. Two more, as
-// not all may double. The bifurcation is closed in to a thousandth of the step that passed it: ten halvings.
+// The first step off the straight path is a 500th of the length (2 % of the motion's size, a tenth of the length). Nine
+// doublings reach the full length; four more steps lead up to Euler's load, off the path and to the full load, and two
+// are allowed for steps that do not double. The bifurcation is bracketed to a thousandth of the step that passed it:
+// ten halvings.
 constexpr long kMostSteps = 9 + 4 + 2, kClosingIn = 10 * 5;
 
-// Onto the path that crosses the straight one, whatever the load.
+// Switches to the path that crosses the straight one.
 TEST(PressedColumn, BucklesUnderAnyLoadBeyondEulers) {
   for (const double times : {1.01, 1.1, 1.5, 2.0, 3.0, 5.0, 8.0}) {
     Column column(times, 0, "{at_limit: jump}");
     const Vec3 moved = column.press();
-    double low = 0, high = 179;  // the slope of its top, degrees
+    double low = 0, high = 179;  // slope at the top, degrees
     while (high - low > 1e-9) (elastica(0.5 * (low + high)).load < times ? low : high) = 0.5 * (low + high);
     const Elastica expected = elastica(low);
     EXPECT_NEAR(1 + moved[0], expected.x, 0.02) << times;
@@ -116,8 +117,8 @@ TEST(PressedColumn, BucklesUnderAnyLoadBeyondEulers) {
   }
 }
 
-// The mesh is not symmetric, which makes it not quite straight: it has no bifurcation, but a path that turns aside
-// next to the straight one of unstable equilibria, whatever the steps.
+// The unsymmetric mesh is an imperfection: instead of a bifurcation, the path bends away from the straight path of
+// unstable equilibria, for any step size.
 TEST(PressedColumn, ThatIsNotQuiteStraightTurnsAsideWhateverTheSteps) {
   const std::string wood = "{type: preset, name: sitka_spruce, density: 400 kg/m^3}";
   for (const std::string statics : {"{}", "{first_step: 0.05, max_step: 0.05}", "{first_step: 1}", "{max_step: 0.3}",
@@ -142,8 +143,8 @@ loads: [{{surface: x1, force: [-200, 0, 0]}}]
   }
 }
 
-// 6,000 unknowns. The elastica leaves out shear, which adds P/(5/6 G A) = 1.3e-3 at most. 60 tangents are what static
-// analyses of slender bodies were asked to take at most.
+// 6,000 unknowns. The elastica neglects shear, which adds at most P/(5/6 G A) = 1.3e-3. The required limit is 60
+// tangents for static analyses of slender bodies.
 TEST(PushedColumn, BendsLikeTheElasticaInFewTangents) {
   BuiltTestScene scene(R"(
 analysis: static

@@ -1,4 +1,4 @@
-// The mesh's error of stresses at probes, as a static run tells it, against Lame's solution of a thick tube.
+// The estimated mesh error of stresses at probes in a static run, against Lame's solution of a thick tube.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 namespace orthodyn::probed_stress_test {
 namespace {
 
-// Radii 1 and 2 m, held along its axis, under the pressure p inside.
+// Radii 1 and 2 m, fixed along its axis, under internal pressure p.
 std::string tube(double nu, int cells) {
   return fmt::format(R"(
 analysis: static
@@ -61,7 +61,7 @@ TEST_P(ProbedStress, HasAnErrorThatIsToldToAFactorOfTwo) {
 
 class CoarseStress : public InFolder {};
 
-// Finer elements would have eight times the unknowns, and 120,000 are allowed.
+// A finer mesh would have eight times the unknowns, more than the allowed 120,000.
 TEST_F(CoarseStress, OfALargeModelIsSaidToHaveNoKnownError) {
   write("tube.yaml", [] {
     std::string scene = tube(0.3, 4);
@@ -69,7 +69,7 @@ TEST_F(CoarseStress, OfALargeModelIsSaidToHaveNoKnownError) {
   }());
   const auto large = orthodyn("run tube.yaml --out result");
   ASSERT_EQ(large.exit_code, 0) << large.output;
-  EXPECT_NE(large.output.find("of stresses and strains at probes not known"), std::string::npos) << large.output;
+  EXPECT_NE(large.output.find("of stresses and strains at probes unknown"), std::string::npos) << large.output;
   EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "result/run.json")).at("errors").at("probes").is_null());
 }
 

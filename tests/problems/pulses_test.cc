@@ -1,4 +1,4 @@
-// What a load or a support does in a thousandth of the run, after a long rest: every integrator sees it.
+// Every integrator resolves a load or support pulse of a thousandth of the run after a long rest.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::string settings(const std::string& integrator) {
   return fmt::format("{{type: {}, rtol: 1e-4{}}}", integrator, integrator == "modal" ? ", modes: 24" : "");
 }
 
-// A free body takes the whole impulse of a load.
+// A free body receives the whole impulse of the load.
 TEST_P(Pulse, OfALoadIsSeen) {
   const BuiltTestScene s(scene_with(settings(GetParam()), fmt::format(R"(
 loads: [{{surface: x1, force: [0.1, 0, 0], factor: {{type: expression, formula: "{}"}}}}])",
@@ -48,7 +48,7 @@ loads: [{{surface: x1, force: [0.1, 0, 0], factor: {{type: expression, formula: 
   EXPECT_NEAR(momentum(s, "linear", last)[0], impulse, 0.03 * impulse);
 }
 
-// One that is jerked to and fro swings.
+// A body whose support moves suddenly vibrates.
 TEST_P(Pulse, OfASupportIsSeen) {
   if (GetParam() == "modal") GTEST_SKIP() << "its supports stand still";
   const BuiltTestScene s(scene_with(settings(GetParam()), fmt::format(R"(

@@ -1,4 +1,4 @@
-// Quadratic tetrahedra: patch tests, orders in space, a beam, and what is conserved.
+// Quadratic tetrahedra: patch tests, orders in space, a beam, and conservation laws.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ namespace orthodyn::quadratic_elements_test {
 namespace {
 
 const std::string kWood =
-    "{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, "
-    "g13: 0.6}";
+    "{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, g13: "
+    "0.6}";
 
 const std::string kIsotropic = "{type: isotropic, density: 1, young: 1, nu: 0.3}";
 
-// A free box with oblique axes in small strain; inner nodes are shifted where it is `distorted`.
+// A free box with oblique material axes at small strain; `distorted` shifts the inner nodes.
 BuiltTestScene box(int cells, int order, bool distorted = false, const std::string& material = kWood) {
   TetMesh mesh = make_box({.cells = {cells, cells, cells}, .split = BoxMesh::Split::six});
   Random random(501);
@@ -43,7 +43,7 @@ time: {{end: 1}}
 
 bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1 - 1e-9).all(); }
 
-// The stress of a displacement gradient, Pa: the law of the scene itself, by the force of one free tetrahedron.
+// Stress of a displacement gradient, Pa, from the nodal forces of one free tetrahedron with the scene's material.
 class Law {
  public:
   explicit Law(const std::string& material = kWood) : one_(one_tet(material)) {}
@@ -76,8 +76,8 @@ time: {{end: 1}}
   BuiltTestScene one_;
 };
 
-// u_i = a_i + A_ij x_j + x . B_i x / 2 needs the body force b = -div stress, which is uniform: the force of every inner
-// node balances it.
+// u_i = a_i + A_ij x_j + x . B_i x / 2 needs the uniform body force b = -div stress, which balances the force at every
+// inner node.
 TEST(PatchTest, OfAQuadraticDisplacementIsPassedByQuadraticElements) {
   Random random(502);
   const Mat3 A = random.matrix();
@@ -244,7 +244,7 @@ TEST_P(Space, ErrorsAreEstimatedByRecoveredStresses) {
   }
 }
 
-// Without contraction a clamp does not disturb: Timoshenko's beam, with a shear factor of 5/6.
+// Without lateral contraction (nu = 0) the clamp causes no disturbance: Timoshenko's beam, shear factor 5/6.
 TEST(QuadraticBeam, BendsAsTimoshenkosAndALinearOneTwoThirdsAsFar) {
   const auto bending = [](int order) {
     const BuiltTestScene s(fmt::format(R"(
@@ -267,8 +267,8 @@ time: {{end: 1}}
   EXPECT_LT(bending(1), 0.7 * expected);
 }
 
-// A clamped spruce beam, grain along it, against Timoshenko's beam (kappa = 5/6; roots of its determinant), whose
-// section the clamp does not keep from contracting, and against the limit of three meshes.
+// A clamped spruce beam with grain along its axis, against Timoshenko's beam (kappa = 5/6; roots of its determinant),
+// whose clamp does not restrain lateral contraction, and against the limit of three meshes.
 TEST(QuadraticBeam, OfSpruceVibratesAsItsRefinedLimit) {
   const auto frequencies = [](int cells) {
     const BuiltTestScene s(fmt::format(R"(
@@ -292,7 +292,7 @@ time: {{end: 1}}
   }
 }
 
-// A round body of curved elements under loads on faces.
+// A round body of curved elements under surface loads.
 BuiltTestScene round(const std::string& more) {
   return BuiltTestScene(fmt::format(R"(
 mesh: {{type: cylinder, radius: 0.5, length: 1, cells: [8, 1, 2], order: 2}}
@@ -328,7 +328,7 @@ TEST(QuadraticFaces, UnderPressureAllAroundHaveTheEnergyPV) {
   const Vector q = random_dofs(random, s.size(), 0.02), d = random_dofs(random, s.size(), 1);
   const NodalVector f = s.nodal(s.force(q) - bare.force(q));
   EXPECT_LE(resultant(f).norm(), 1e-13);
-  // The work on d is -p dV: V by the elements themselves, of which det F is a polynomial along d.
+  // The work on d is -p dV, with V integrated over the elements, where det F is a polynomial along d.
   const auto volume = [&](double h) {
     const NodalVector x = s.positions(q + h * d);
     const ElementMesh elements(s.mesh());
@@ -343,7 +343,7 @@ TEST(QuadraticFaces, UnderPressureAllAroundHaveTheEnergyPV) {
   const double rate = (volume(-2e-3) - 8 * volume(-1e-3) + 8 * volume(1e-3) - volume(2e-3)) / 12e-3;  // exact: cubic
   const Vector push = s.force(q) - bare.force(q);
   EXPECT_NEAR(push.dot(d), -0.7 * rate, 1e-10);
-  // Its stiffness is the derivative of its force, and symmetric.
+  // The stiffness is the derivative of the force, and symmetric.
   const Vector difference =
       (s.force(q + 1e-3 * d) - bare.force(q + 1e-3 * d) - s.force(q - 1e-3 * d) + bare.force(q - 1e-3 * d)) /
       2e-3;  // exact: quadratic
@@ -372,7 +372,7 @@ TEST(QuadraticElements, FallFreelyWithoutStrainWithEitherMass) {
   }
 }
 
-// The largest frequency is that of the whole mass and stiffness, curved elements included.
+// The largest frequency belongs to the whole mass and stiffness matrix, including curved elements.
 TEST(QuadraticElements, AreNoFasterThanTheirBound) {
   const auto s = round("");
   const Eigen::MatrixXd K = s.stiffness(s.zero());

@@ -1,4 +1,4 @@
-// Errors of the mesh in displacements and frequencies, against those of a finer mesh.
+// Estimated mesh errors of displacements and frequencies, against a finer mesh.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,13 +18,13 @@ struct Mesh {
 };
 
 orthodyn::Setup set_up(const Mesh& mesh, const std::string& rest) {
-  return orthodyn::set_up(Config::from_text(fmt::format(
-      "mesh: {{type: box, size: [1, 0.1, 0.1], cells: [{}, {}, {}], order: {}}}\n"
-      "materials: {{wood: {{type: orthotropic, density: 400, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu12: 0.44, nu23: "
-      "0.44, nu13: 0.53, g12: 0.69 GPa, g23: 0.032 GPa, g13: 0.66 GPa}}}}\n"
-      "regions: {{all: {{material: wood, axes: {{first: [1, 0.2, 0.1], second: [0, 1, 0]}}}}}}\n"
-      "clamps: [{{surface: x0}}]\n{}",
-      10 * mesh.fineness, mesh.fineness, mesh.fineness, mesh.order, rest)));
+  return orthodyn::set_up(Config::from_text(
+      fmt::format("mesh: {{type: box, size: [1, 0.1, 0.1], cells: [{}, {}, {}], order: {}}}\n"
+                  "materials: {{wood: {{type: orthotropic, density: 400, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu12: "
+                  "0.44, nu23: 0.44, nu13: 0.53, g12: 0.69 GPa, g23: 0.032 GPa, g13: 0.66 GPa}}}}\n"
+                  "regions: {{all: {{material: wood, axes: {{first: [1, 0.2, 0.1], second: [0, 1, 0]}}}}}}\n"
+                  "clamps: [{{surface: x0}}]\n{}",
+                  10 * mesh.fineness, mesh.fineness, mesh.fineness, mesh.order, rest)));
 }
 
 class Displacements : public testing::TestWithParam<const char*> {
@@ -55,7 +55,7 @@ TEST_P(Displacements, AreOffByWhatTheDualProblemSays) {
     SCOPED_TRACE(mesh.order);
     const Found coarse = find(mesh);
     const double tip = (fine.tip - coarse.tip)[2], middle = (fine.middle - coarse.middle)[2];
-    EXPECT_GT(std::abs(tip), 0.002 * std::abs(fine.tip[2]));  // there is an error to be told
+    EXPECT_GT(std::abs(tip), 0.002 * std::abs(fine.tip[2]));  // the error is not negligible
     EXPECT_GT(coarse.tip_error[2] / tip, 0.5);
     EXPECT_LT(coarse.tip_error[2] / tip, 1.5);
     EXPECT_GT(coarse.middle_error[2] / middle, 0.5);
@@ -71,7 +71,7 @@ TEST(HeldDisplacements, HaveNoError) {
   EXPECT_EQ(displacement_errors(model, state, {held})[0], Vec3::Zero());
 }
 
-// Bending, and with the lumped mass of a section of one element torsion, whose inertia that makes too large.
+// Bending; and torsion, whose inertia is too large with the lumped mass of one element per section.
 TEST(Frequencies, AreOffByWhatStressesAndMassSay) {
   const auto lowest = [](const Mesh& mesh, const std::string& mass) {
     const orthodyn::Setup setup = set_up(mesh, fmt::format("mass: {}\ntime: {{end: 1}}\n", mass));

@@ -1,4 +1,4 @@
-// Runs a built scene and looks on.
+// Runs a built scene with an observer.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Watch : Observer {
   std::function<void(const State&)> look;
 };
 
-// To the scene's end; `look` sees the start and `frames` evenly spaced states.
+// Runs to the end of the scene and calls `look` for the start and for `frames` evenly spaced states.
 Outcome run_scene(const BuiltTestScene& s, int frames, std::function<void(const State&)> look);
 
 double total_energy(const BuiltTestScene& s, const State& state);

@@ -1,5 +1,5 @@
-// A body of another size, stiffness or density moves as its model of unit size does, in other units: absolute
-// thresholds, of ours or of a library, would show. Units are powers of two, so that nothing is rounded in another way.
+// Scaling size, stiffness or density scales the motion exactly: an absolute threshold, ours or a library's, would
+// violate this. Scale factors are powers of two, so that rounding is identical.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Units {
 
 double two_to(int power) { return std::exp2(power); }
 
-// From 1e-9 to 1e4 m, 1 to 1e12 Pa, 1e-3 to 1e5 kg/m^3, with units of time that are powers of two as well.
+// From 1e-9 to 1e4 m, 1 to 1e12 Pa, 1e-3 to 1e5 kg/m^3; the time scale is a power of two as well.
 std::vector<Units> all_units() {
   return {{two_to(-30), two_to(37), two_to(11)}, {two_to(-30), two_to(0), two_to(16)},
           {two_to(13), two_to(40), two_to(-10)}, {two_to(13), two_to(0), two_to(16)},

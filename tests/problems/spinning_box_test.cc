@@ -1,4 +1,4 @@
-// A box that spins about axis 3 without Poisson's effect: an exact solution of the nonlinear
+// A box spinning about axis 3 with zero Poisson ratios: an exact solution of the nonlinear
 // corotational model. In the rotating frame F stays diagonal and E_i x_i'' + rho w^2 x_i = 0 with free
 // ends: x_i = sin(k_i X) / (k_i cos(k_i L_i / 2)), k_i = w sqrt(rho / E_i); x_3 = X.
 #include <fmt/format.h>
@@ -38,8 +38,8 @@ Vector exact_dofs(const BuiltTestScene& s) {
   return s.dofs([](const Vec3& X) { return Vec3(exact(X) - X); });
 }
 
-// M w^2 x + f(x) in the plane of rotation against smooth test functions (x_i itself), relative to the
-// centrifugal term: the work that the residual does.
+// Residual M w^2 x + f(x) in the plane of rotation, tested with smooth functions (x_i itself), relative to the
+// centrifugal term.
 double weak_residual(int n) {
   const auto scene = box(n);
   const Vector q = exact_dofs(scene);
@@ -50,8 +50,8 @@ double weak_residual(int n) {
   return std::abs(residual.dot(x)) / centrifugal.dot(x);
 }
 
-// The model at rest in the frame that turns with it, f(q) + w^2 M x = 0 with x in the plane of rotation, by Newton from
-// the rest shape. A turn about axis 3 and a shift along it change nothing: the least correction leaves both out.
+// Equilibrium in the rotating frame, f(q) + w^2 M x = 0 with x in the plane of rotation, by Newton from the rest shape.
+// Rotation about axis 3 and translation along it are undetermined; the minimum-norm correction excludes both.
 Vector equilibrium_in_rotation(const BuiltTestScene& scene) {
   const Vector in_plane = scene.dofs([](const Vec3&) { return Vec3(1, 1, 0); });
   const Vector rest = scene.dofs([](const Vec3& X) { return X; });

@@ -24,7 +24,7 @@ std::string error_of(const std::string& yaml) {
   return "accepted";
 }
 
-// Without Poisson's effect the corotational law of a bar in uniform tension is linear: u = t x/E.
+// With zero Poisson ratios the corotational law of a bar in uniform tension is linear: u = t x/E.
 TEST(StaticScene, ABarUnderTractionStretchesAsInTheClosedForm) {
   const BuiltTestScene bar(R"(
 analysis: static
@@ -82,8 +82,8 @@ TEST(StaticScene, RefusesWhatBelongsToMotion) {
                                   {"initial: {velocity: [1, 0, 0]}", "only with analysis: dynamic"},
                                   {"checkpoint: {}", "only with analysis: dynamic"},
                                   {"start: equilibrium", "only with analysis: dynamic"},
-                                  {"output: {frames: 3}", "a frame of each load step"},
-                                  {"output: {momentum: true}", "nothing moves"}}) {
+                                  {"output: {frames: 3}", "a frame for each load step"},
+                                  {"output: {momentum: true}", "momentum"}}) {
     const std::string message = error_of(kBlock + "clamps: [{surface: x0}]\n" + key + "\n");
     EXPECT_NE(message.find(says), std::string::npos) << key << "\nin: " << message;
   }
@@ -168,7 +168,7 @@ clamps: [{surface: x0}]
 initial: {noise: {amplitude: 1e-3}}
 time: {end: 1}
 )");
-  EXPECT_NE(message.find("initial: the shape is that of equilibrium"), std::string::npos) << message;
+  EXPECT_NE(message.find("initial: start: equilibrium determines the shape"), std::string::npos) << message;
 }
 
 class StaticReference : public testing::Test {
@@ -179,7 +179,7 @@ class StaticReference : public testing::Test {
     folder_ = std::string(data) + "/reference/";
   }
 
-  // The numbers after the first of each row below the header.
+  // All columns but the first, below the header.
   std::vector<std::vector<double>> rows(const std::string& file) const {
     std::ifstream in(folder_ + file);
     std::string line;
@@ -199,7 +199,7 @@ class StaticReference : public testing::Test {
   std::string folder_;
 };
 
-// Mesh, material and load of C06a's case.json: a strip bent by 64 degrees.
+// Mesh, material and load from case.json of C06a: a strip bent by 64 degrees.
 TEST_F(StaticReference, AStripBendsFarAsInAnIndependentCorotationalProgram) {
   const BuiltTestScene strip(fmt::format(R"(
 analysis: static
@@ -223,7 +223,7 @@ loads: [{{surface: load, traction: [0, 0, 1e5]}}]
   }
 }
 
-// Of C02's case.json: an off-axis orthotropic cantilever.
+// From case.json of C02: an off-axis orthotropic cantilever.
 TEST_F(StaticReference, ACantileverHasTheFrequenciesOfAnIndependentProgram) {
   for (const char* mass : {"consistent", "lumped"}) {
     const BuiltTestScene beam(fmt::format(R"(

@@ -25,8 +25,8 @@ Vector linear_static(const BuiltTestScene& s) {
   return u;
 }
 
-// A block pulled along x, its fibre at -theta from x, held just so that it cannot move rigidly: the
-// stress is uniform, and linear elements are exact.
+// A block in tension along x with fibres at -theta from x, supported statically determinately: the stress is uniform,
+// and linear elements are exact.
 struct OffAxis {
   double modulus, coupling;  // Pa, gamma_xy / eps_x
 };
@@ -103,7 +103,7 @@ class Reference : public testing::Test {
     return u;
   }
 
-  // case.json of C01a: off-axis orthotropic cantilever under a tip traction.
+  // From case.json of C01a: off-axis orthotropic cantilever under a tip traction.
   BuiltTestScene cantilever(const std::string& mesh) const {
     return BuiltTestScene(fmt::format(R"(
 mesh: {{type: gmsh, file: {}}}

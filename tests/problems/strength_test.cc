@@ -1,4 +1,4 @@
-// Stress, strain and exposures of bodies under uniform stress, as quantities.
+// Stress, strain and failure exposures under uniform stress, as quantities.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPull = 1e6;  // Pa
 
-// A block pulled along x, its grain at -theta, held just so that it cannot move rigidly. Linear kinematics: the stress
-// is uniform and known.
+// A block in tension along x with grain at -theta, supported statically determinately. With linear kinematics the
+// stress is uniform and known.
 std::string block(double degrees, const std::string& strength) {
   const double theta = degrees * std::numbers::pi / 180;
   return fmt::format(R"(
@@ -74,7 +74,7 @@ TEST(UniformStress, IsKnownAtAPointAndOverTheBody) {
                  {"middle.principal_stress.3", 0}};
     for (const auto& [quantity, expected] : known)
       EXPECT_NEAR(body(quantity), expected, 1e-4 * kPull) << quantity << " at " << degrees;
-    // Strain in space: eps_xx = sigma/E_x, the same as along the rotated axes.
+    // Strain in global axes: eps_xx = sigma/E_x.
     const double Exx =
         1 / (std::pow(c, 4) / 10.8e9 + std::pow(s, 4) / 0.84e9 + (1 / 0.69e9 - 2 * 0.44 / 10.8e9) * s * s * c * c);
     EXPECT_NEAR(body("middle.nodal_strain_space.xx"), kPull / Exx, 1e-4 * kPull / Exx) << degrees;
@@ -118,8 +118,8 @@ TEST(Exposures, NeedStrengthsAtAProbe) {
   }
 }
 
-// A laminate whose middle ply is one linear element thick: each of its nodes is one of another ply, too. Stretched
-// along x with its sides free to contract alike (nu = 0), each ply has E times the strain.
+// A laminate whose middle ply is one linear element thick, so that each of its nodes also belongs to another ply. Under
+// uniform strain along x (nu = 0) the stress of each ply is E times the strain.
 TEST(ExtremesOfTheBody, AreNotAveragedAcrossRegions) {
   constexpr double kStiff = 10e9, kSoft = 1e9, kStretch = 1e-3;
   const BuiltTestScene scene(fmt::format(R"(

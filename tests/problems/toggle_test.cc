@@ -1,5 +1,5 @@
 // Williams' toggle (Quart. J. Mech. Appl. Math. 17, 1964): two clamped, slightly inclined beams with a rigid joint,
-// pressed down at the apex, against its theory of beams whose axial force bends them.
+// loaded at the apex, against his beam-column theory.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,12 +20,12 @@ constexpr double kHalf = 12.943, kRise = 0.386, kWidth = 0.753, kDepth = 0.243, 
 constexpr double kArea = kWidth * kDepth, kBending = kYoungs * kWidth * kDepth * kDepth * kDepth / 12;
 constexpr double kSlope = kRise / kHalf;
 
-// One half for a deflection d of the apex: its shape w, with w'' + k^2 w = const + ..., clamped at both ends, so that
-// w' = d s(x), s = A (1 - cos kx) + B sin kx. N is found by bisection.
+// One half of the toggle at the apex deflection d. Its shape w satisfies w'' + k^2 w = const + ... and is clamped at
+// both ends: w' = d s(x), s = A (1 - cos kx) + B sin kx. N is found by bisection.
 struct Half {
   double k;  // 1/in, k^2 = N / (E I)
   double tangent() const { return std::tan(k * kHalf / 2); }
-  // of a unit deflection: the force across, over E I, and the integral of s^2
+  // for unit deflection: transverse force over E I, and the integral of s^2
   double across() const { return k * k * k / (2 * (k * kHalf / 2 - tangent())); }
   double slope(double x) const {
     const double T = across() / (k * k);  // (1 - cos kx - tan(ka/2) sin kx) T = s

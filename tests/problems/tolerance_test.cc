@@ -1,5 +1,5 @@
-// The error of a scene that is shipped falls with the tolerance, whichever method integrates, and is small where a
-// scene says nothing. configs/comparisons/tolerance.yaml measures it at full size.
+// On shipped scenes the error falls with the tolerance for every method, and is small with default settings.
+// configs/comparisons/tolerance.yaml measures it at full size.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ struct ScenePart {
   const char* name;
   const char* cells;              // of a coarser mesh
   const char* end;                // s
-  const char* damping = nullptr;  // in place of the scene's
-  const char* factor = nullptr;   // likewise, of its load
+  const char* damping = nullptr;  // replaces the scene's
+  const char* factor = nullptr;   // replaces that of the load
 };
 constexpr const char* kPulse = "{type: expression, formula: exp(-((t-0.01)/0.001)^2)}";
 constexpr ScenePart kScenes[] = {{"twist", "[12, 2, 1]", "1.2"}, {"beam_lrt", "[8, 2, 2]", "0.6"}};
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DefaultTolerance,
                                          ScenePart{"beam_lrt", "[8, 2, 2]", "0.6", "~"},
                                          ScenePart{"twist", "[12, 2, 1]", "0.8"}));
 
-// An integrator that the scene does not name, at a tolerance that it does not name.
+// Default integrator at the default tolerance.
 TEST_P(DefaultTolerance, KeepsTheMotionToOnePerCent) {
   const auto expected = motion_of(GetParam(), kReference);
   const double error = (motion_of(GetParam(), "~") - expected).lpNorm<Eigen::Infinity>();

@@ -1,4 +1,4 @@
-// The scenes in configs/vega, with meshes that come with Vega FEM: skipped where $ORTHODYN_DATA has none.
+// The scenes in configs/vega, with meshes of Vega FEM; skipped without them in $ORTHODYN_DATA.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 struct VegaScene {
   const char *name, *mesh, *fixed;
-  double largest_difference;  // of two integrators, rms over nodes and frames, relative to the largest motion
+  double
+      largest_difference;  // difference of two integrators, rms over nodes and frames, relative to the largest motion
 };
 
 class VegaScenes : public testing::TestWithParam<VegaScene> {
@@ -52,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, VegaScenes,
                                                    "simple_bridge/simpleBridge.bou", 0.005}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// The bounds are what a prototype with the same integrators and tolerance reached.
+// The bounds were reached by a prototype with the same integrators and tolerance.
 TEST_P(VegaScenes, SwingAlikeByTwoIntegrators) {
   const auto cvode = swing("cvode_bdf"), ida = swing("ida_bdf");
   ASSERT_EQ(cvode.size(), 201u);

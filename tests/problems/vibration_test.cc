@@ -1,4 +1,4 @@
-// Natural frequencies against those of bars and beams.
+// Natural frequencies against bar and beam theory.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace orthodyn::vibration_test {
 namespace {
 
-// The lowest mode that `start` is not orthogonal to, by inverse iteration; its frequency in Hz.
+// Frequency (Hz) of the lowest mode that is not orthogonal to `start`, by inverse iteration.
 struct Mode {
   double frequency;
   Vector shape;
@@ -45,7 +45,7 @@ materials:
                      size, cells, split, nu, nu, 0.0225 / 0.44 * nu, rest);
 }
 
-// A bar without Poisson's effect that moves along its axis only.
+// A bar with zero Poisson ratios that moves along its axis only.
 BuiltTestScene bar(int cells, const std::string& mass) {
   return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", fmt::format("[{}, 1, 1]", cells), "six", 0,
                                    fmt::format(R"(
@@ -76,8 +76,8 @@ TEST(Bar, FirstFrequencyHasTheKnownErrorOfEachMassMatrix) {
   }
 }
 
-// The mode is released; after one exact period the phase is wrong by 2 pi times the error of f1, and
-// cos of that: what remains is the integrator's error.
+// Released in the first mode. After one exact period the phase error is 2 pi times the relative error of f1; with its
+// cosine taken into account, only the integrator's error remains.
 TEST(Bar, AReleasedFirstModeSwingsAtItsFrequency) {
   for (const char* mass : {"consistent", "lumped"}) {
     auto scene = bar(10, mass);
@@ -112,8 +112,7 @@ TEST(Cantilever, FirstBendingFrequencyExtrapolatesToTimoshenkosBeam) {
   EXPECT_NEAR(extrapolated, timoshenko, 0.01 * timoshenko) << coarse << " " << fine;
 }
 
-// The same release as for the bar, with large rotations allowed for: at an amplitude of 1e-4 L they do
-// not show.
+// Released as the bar, with corotational kinematics; at an amplitude of 1e-4 L large rotations have no effect.
 TEST(Cantilever, AReleasedFirstModeSwingsAtItsFrequency) {
   const auto beam = [](double end) {
     return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", "[20, 2, 2]", "five", 0.44,

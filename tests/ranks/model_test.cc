@@ -1,5 +1,5 @@
-// A model of which several ranks have parts is the model: forces, matrices, energies and outputs of any state. Each
-// rank has the whole model beside its part. Run by mpirun; one process alone would compare a model with itself.
+// A model distributed over several MPI ranks gives the same forces, matrices, energies and outputs as the undivided
+// model. Each rank builds both and compares them. Run with mpirun: one process would compare the model with itself.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -25,7 +25,7 @@ class SharedModel : public testing::TestWithParam<SharedScene> {
   const FemModel& one() const { return *one_.model; }
   const FemModel& parts() const { return *parts_.model; }
 
-  // The same on all ranks, a little off rest.
+  // A state of the undivided model, close to rest, equal on all ranks.
   State some_state() const {
     Random random(5);
     State state{0.03, Vector(one().num_dofs()), Vector(one().num_dofs())};
@@ -54,7 +54,8 @@ TEST_P(SharedModel, StartsAlike) {
   EXPECT_NEAR(parts().parts().mass->total(), one().parts().mass->total(), 1e-12 * one().parts().mass->total());
 }
 
-// Of few elements some of seven ranks have none; and what is held or moved is cut by the partition.
+// Checks that the scenes test what they should: with few elements some of seven ranks have none, and the partition cuts
+// through contact areas and supports.
 TEST_P(SharedModel, IsDividedAsItsNameTells) {
   const Ranks& ranks = parts().parts().subdomain->ranks();
   const auto& subdomain = *parts().parts().subdomain;
@@ -155,7 +156,7 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsIndefinite) {
 
 TEST_P(SharedModel, MultigridWithRigidMotionsSolvesIt) {
   if (!mpi_world()) GTEST_SKIP() << "the solver's own tests have it";
-  if (mpi_world()->any(parts().num_dofs() < 100)) {  // it would not end
+  if (mpi_world()->any(parts().num_dofs() < 100)) {  // GAMG would not terminate with so few unknowns
     EXPECT_THROW(make_linear_solver({"petsc", "-pc_type gamg"}, parts().pattern()), ConfigError);
     return;
   }
@@ -176,7 +177,7 @@ TEST_P(SharedModel, MultigridWithRigidMotionsSolvesIt) {
   EXPECT_LE((whole(x) - state.v).norm(), 1e-8 * state.v.norm());
 }
 
-// A block of the diagonal that has no inverse is one rank's; all are told.
+// Only one rank owns the singular diagonal block, but all ranks must return the status.
 TEST_P(SharedModel, IsToldWhereItsMatrixIsSingular) {
   const State state = some_state(), part = parts().part(state);
   Linearization at;
@@ -184,7 +185,7 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsSingular) {
   const Pattern& pattern = parts().pattern();
   const int owned = pattern.share ? pattern.share->owned : pattern.n;
   const auto row_of = [&](int i) { return pattern.share ? pattern.share->row[static_cast<std::size_t>(i)] : i; };
-  // The first two unknowns of the whole that are coordinates of one point.
+  // The first pair of successive unknowns, over all ranks, that are coordinates of one point.
   double first = std::numeric_limits<double>::infinity();
   for (int i = owned - 2; i >= 0; --i)
     if (pattern.coordinate[static_cast<std::size_t>(i) + 1] % 3 != 0 &&
@@ -201,7 +202,7 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsSingular) {
     for (int k = pattern.column_start[static_cast<std::size_t>(j)];
          k < pattern.column_start[static_cast<std::size_t>(j) + 1]; ++k)
       if (is_one(j) && is_one(pattern.row[static_cast<std::size_t>(k)]))
-        A[static_cast<std::size_t>(k)] = j < owned ? 1e-3 : 0;  // two equal rows, the sum of all ranks
+        A[static_cast<std::size_t>(k)] = j < owned ? 1e-3 : 0;  // makes the two rows equal, summed over all ranks
   EXPECT_EQ(solver->factor(A.data()), FactorStatus::singular);
 }
 
@@ -226,7 +227,7 @@ TEST_P(SharedModel, TellsTheSameOfAState) {
 TEST_P(SharedModel, WhatOneRankCannotEvaluateIsToldToAll) {
   if (!mpi_world()) GTEST_SKIP() << "there is nobody to tell";
   State part = parts().part(some_state());
-  // Of several ranks the one that has the first unknown.
+  // Only the rank that owns the first unknown gets an invalid state.
   const bool has_first = !parts().parts().unknowns.empty() && parts().parts().unknowns[0] == 0;
   if (has_first) part.q[0] = std::numeric_limits<double>::quiet_NaN();
   Vector f(parts().num_dofs());

@@ -1,5 +1,5 @@
-// Motions that several ranks compute together: the same as on one, to round-off with a fixed step, and as the exact
-// solution where there is one.
+// Motions computed by several MPI ranks. With a fixed step they equal those of one rank to round-off; with error
+// control they agree within the tolerance. Some are compared with exact solutions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Motion {
   long steps = 0;
 };
 
-// The state at the end, of all unknowns.
+// Integrates to the end time. Motion::end has the unknowns of all ranks.
 Motion integrate(const std::string& yaml, const Ranks* ranks, double rtol_of_time = 1e-12) {
   orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, ranks);
   const double end = setup.scene.time.end;
@@ -63,13 +63,13 @@ TEST_P(SharedMotion, WithErrorControlIsTheSameWithinTheTolerance) {
         "type: arkode_dirk, rtol: 1.0e-5, linear_solver: petsc"}) {
     const std::string yaml = GetParam().yaml + integrator(method);
     const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, mpi_world());
-    // The scale of positions is 0.1 m, and errors of some hundred steps add up in either run.
+    // The position scale is 0.1 m, and the errors of some hundred steps accumulate in both runs.
     EXPECT_LE((shared.end.q - one.end.q).lpNorm<Eigen::Infinity>(), 3e-4) << method;
   }
 }
 
-// A method that runs on ranks, on a body and on one that is so small that some of seven ranks have none of it. With the
-// same linear solver, and norms over all ranks, it takes the same steps.
+// Each method that runs on ranks, for a body of usual size and for one so small that some of seven ranks have no part
+// of it. Because the linear solver is the same and norms include all ranks, the steps must be the same.
 class SharedMethod : public testing::TestWithParam<std::string> {};
 
 TEST_P(SharedMethod, TakesTheStepsThatItTakesOnOneRank) {
@@ -88,7 +88,7 @@ TEST_P(SharedMethod, TakesTheStepsThatItTakesOnOneRank) {
   }
 }
 
-// Tables of ARKODE with a later stage at the step's start.
+// Butcher tables of ARKODE with a later stage at the start of the step.
 TEST(SharedTables, KnowTheStepsEndOnAllRanks) {
   for (const char* method : {"arkode_erk, table: FEHLBERG_13_7_8", "arkode_dirk, table: SDIRK_2_1_2"}) {
     SCOPED_TRACE(method);
@@ -110,7 +110,7 @@ std::vector<std::string> methods_on_ranks() {
 INSTANTIATE_TEST_SUITE_P(Methods, SharedMethod, testing::ValuesIn(methods_on_ranks()),
                          [](const auto& method) { return method.param; });
 
-// Of those that differ in what moves; models are tested on all.
+// The scenes whose motions differ in kind. model_test.cc covers all scenes.
 std::vector<SharedScene> moving_scenes() {
   std::vector<SharedScene> some;
   for (const SharedScene& scene : shared_scenes())
@@ -121,7 +121,7 @@ std::vector<SharedScene> moving_scenes() {
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedMotion, testing::ValuesIn(moving_scenes()),
                          [](const auto& scene) { return scene.param.name; });
 
-// A free body that turns slowly and flies: its centre moves on a parabola, whatever the partition.
+// A free body flies and turns slowly. Its centre must move on a parabola for any partition.
 TEST(SharedFlight, OfTheCentreIsAParabola) {
   const std::string yaml = R"(
 mesh: {type: box, size: [1, 0.2, 0.1], cells: [8, 2, 1], order: 1}
@@ -144,8 +144,8 @@ time: {end: 0.3}
   EXPECT_NEAR(momentum[2] / mass, 3 - 9.81 * 0.3, 1e-5);
 }
 
-// A stiff free box turns about a principal axis: after half a turn each node is opposite to where it was but for what
-// centrifugal forces stretch, rho (omega L)^2 / E = 1e-6, and the angular momentum is what it was.
+// A stiff free box turns about a principal axis. After half a turn each node is opposite to its initial position, up to
+// the centrifugal strain rho (omega L)^2 / E = 1e-6. The angular momentum is conserved.
 TEST(SharedFlight, OfASpinningBoxIsARotation) {
   const std::string yaml = R"(
 mesh: {type: box, size: [1, 0.2, 0.1], origin: [-0.5, -0.1, -0.05], cells: [8, 2, 1], order: 1}
@@ -162,8 +162,8 @@ time: {end: 3.141592653589793}
   EXPECT_NEAR(model.evaluate("momentum.angular", motion.end)[2], before, 1e-3 * before);
 }
 
-// A longitudinal wave runs along a bar, through every border between ranks, and comes back from the free end: with
-// nu = 0 the bar's first frequency is c / (4 L) but for the mesh, whose error falls with its square.
+// A longitudinal wave runs along a bar across all borders between ranks. With nu = 0 the first frequency of the bar is
+// c / (4 L), with the wave speed c and length L. The error due to the mesh is of second order in its size.
 TEST(SharedWave, OfABarHasItsFrequency) {
   const int cells = 20;
   const std::string yaml = "mesh: {type: box, size: [1, 0.05, 0.05], cells: [" + std::to_string(cells) +
@@ -175,7 +175,7 @@ elasticity: {kinematics: linear}
 time: {end: 0.4}
 )" + integrator("type: generalized_alpha, step: 0.001, rho_inf: 1, rtol: 1.0e-10");
   const Motion motion = integrate(yaml, mpi_world());
-  // At t = T = 4 L / c = 0.4 s it is where it was.
+  // After one period, T = 4 L / c = 0.4 s, the bar is in its initial state.
   orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, nullptr);
   const Vector& start = setup.built.initial.q;
   EXPECT_LE((motion.end.q - start).lpNorm<Eigen::Infinity>(), 1e-2 * start.lpNorm<Eigen::Infinity>());

@@ -1,4 +1,4 @@
-// Scenes that several ranks compute together: each has something that a partition may cut through.
+// Scenes for tests with several MPI ranks. Each has a feature that a partition may cut through.
 #pragma once
 
 #include <string>
@@ -56,7 +56,7 @@ regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], 
 clamps: [{box: {min: [-1, -1, -1], max: [0.45, 1, 1]}}]
 gravity: [0, 0, -9.81]
 )"},
-          // Five elements: of seven ranks some have none.
+          // Five elements, so that some of seven ranks have none.
           {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
 clamps: [{surface: x0}]
 gravity: [0, 0, -9.81]

@@ -56,12 +56,13 @@ TEST(AbaqusAmplitude, IsOverTheTimeOfTheFirstStep) {
   EXPECT_EQ(brick("*STEP\n*STATIC\n0.1, 0.25\n*CLOAD\n7, 1, 2\n").text.find("\ntime:"), std::string::npos);
 }
 
-// Total time is counted from the first step, which is the one that is taken.
+// Total time starts at the first step, the only one that is converted.
 TEST(AbaqusAmplitude, InTotalTimeIsThatOfTheFirstStep) {
   const std::string deck = replaced(kPulse, "NAME=Pulse", "NAME=Pulse, TIME=TOTAL TIME, VALUE=RELATIVE") +
                            "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=Pulse\n7, 1, 2\n*END STEP\n*STEP\n";
   EXPECT_CONTAINS(brick(deck).text, "force: [2, 0, 0], " + kTable);
-  expect_left_out(deck + "*CLOAD, AMPLITUDE=Pulse\n8, 1, 2\n", "*CLOAD (line 32): of a later step; the first is taken");
+  expect_left_out(deck + "*CLOAD, AMPLITUDE=Pulse\n8, 1, 2\n",
+                  "*CLOAD (line 32): belongs to a later step; only the first step is converted");
 }
 
 TEST(AbaqusAmplitude, ThatIsNoTableOfFactorsIsLeftOutByNameWithWhatHasIt) {
@@ -69,7 +70,7 @@ TEST(AbaqusAmplitude, ThatIsNoTableOfFactorsIsLeftOutByNameWithWhatHasIt) {
     const std::string deck =
         "*AMPLITUDE, NAME=A" + parameters + "\n" + points + "\n*BOUNDARY, AMPLITUDE=A\nFoot, 1, 1, 2\n";
     expect_left_out(deck, "*BOUNDARY (line 25): " + why);
-    expect_left_out(deck, "*AMPLITUDE A (line 22): nothing that is taken has it");
+    expect_left_out(deck, "*AMPLITUDE A (line 22): not used by a converted condition");
   };
   const std::string table = "0, 0, 1, 1";
   expect(", DEFINITION=PERIODIC", "1, 6.28, 0, 0", "DEFINITION=PERIODIC of *AMPLITUDE A (line 22) is not read");
@@ -88,10 +89,10 @@ TEST(AbaqusAmplitude, ThatTheFileDoesNotHaveIsNamed) {
 
 TEST(AbaqusAmplitude, OfGravityIsLeftOut) {
   expect_left_out(kPulse + "*DLOAD, AMPLITUDE=Pulse\nAll, GRAV, 9.81, 0, 0, -1\n",
-                  "*DLOAD (line 26): gravity has no factor in time");
+                  "*DLOAD (line 26): gravity cannot vary in time");
 }
 
-// With derivatives in time, Abaqus/Standard's default is SMOOTH=0.25; a scene's table has corners.
+// For motions Abaqus/Standard's default is SMOOTH=0.25; a table of a scene is not smoothed.
 TEST(AbaqusAmplitude, OfAMotionSaysThatAbaqusRoundsItsCorners) {
   const std::string deck = kPulse + "*BOUNDARY, AMPLITUDE=Pulse\nFoot, 2, 2, 3\n";
   EXPECT_CONTAINS(brick(deck, {}).text, kTable + "   # Abaqus/Standard rounds the corners (SMOOTH=0.25)\n");

@@ -21,7 +21,7 @@ inline AbaqusScene brick(const std::string& conditions, const AbaqusSceneOptions
   return scene_of_abaqus(folder.path("a.inp"), "a.inp", options);
 }
 
-// That the scene of the brick with these lines tells that this is left out, also in its text.
+// Expects that the scene of the brick with these lines lists `what` as left out, also in its text.
 inline void expect_left_out(const std::string& conditions, const std::string& what,
                             const AbaqusSceneOptions& options = {.is_static = true}) {
   const AbaqusScene made = brick(conditions, options);

@@ -41,11 +41,10 @@ TEST(AbaqusScene, ConstantsStandInTheirOrder) {
   EXPECT_CONTAINS(scene("*DENSITY\n400\n*ELASTIC, TYPE=ORTHO\n11, 12, 22, 13, 23, 33, 44, 55\n66, 20.\n"),
                   "voigt_order: abaqus, density: 400, c11: 11, c12: 12, c22: 22, c13: 13, c23: 23, c33: 33, c44: 44, "
                   "c55: 55, c66: 66}");
-  EXPECT_CONTAINS(
-      scene("*DENSITY\n400\n*ELASTIC, TYPE=ANISOTROPIC\n11, 12, 22, 13, 23, 33, 14, 24\n34, 44, 15, 25, 35, 45, "
-            "55, 16\n26, 36, 46, 56, 66\n"),
-      "c33: 33, c14: 14, c24: 24, c34: 34, c44: 44, c15: 15, c25: 25, c35: 35, c45: 45, c55: 55, c16: 16, "
-      "c26: 26, c36: 36, c46: 46, c56: 56, c66: 66}");
+  EXPECT_CONTAINS(scene("*DENSITY\n400\n*ELASTIC, TYPE=ANISOTROPIC\n11, 12, 22, 13, 23, 33, 14, 24\n34, 44, 15, 25, "
+                        "35, 45, 55, 16\n26, 36, 46, 56, 66\n"),
+                  "c33: 33, c14: 14, c24: 24, c34: 34, c44: 44, c15: 15, c25: 25, c35: 35, c45: 45, c55: 55, c16: 16, "
+                  "c26: 26, c36: 36, c46: 46, c56: 56, c66: 66}");
 }
 
 TEST(AbaqusScene, MaterialsThatAreNotReadAreNamedWithTheirReason) {
@@ -98,9 +97,9 @@ TEST(AbaqusScene, MillimetresAndMegapascalsAreConverted) {
 TEST(AbaqusScene, NamesThatTheFileDoesNotHaveAreSaidToBeMade) {
   const std::string text = brick("*CLOAD\n7, 1, 3\n8, 2, 3\n*DLOAD\n1, P2, 7\n").text;
   EXPECT_CONTAINS(text,
-                  "\n# surfaces: Top\n# node sets: Foot\n# not in the file, but made of the nodes and faces that its "
-                  "conditions list: dload_1, cload_1, cload_2\n");
-  EXPECT_EQ(brick("*CLOAD\nFoot, 1, 3\n").text.find("but made of"), std::string::npos);
+                  "\n# surfaces: Top\n# node sets: Foot\n# made from nodes and faces that conditions list by number: "
+                  "dload_1, cload_1, cload_2\n");
+  EXPECT_EQ(brick("*CLOAD\nFoot, 1, 3\n").text.find("made from nodes"), std::string::npos);
 }
 
 // The body is the set All by way of a set that has it twice.
@@ -113,14 +112,15 @@ TEST(AbaqusScene, GravityMayActOnSetsWithinSets) {
 
 TEST(AbaqusScene, WhatIsLeftOutIsNamedWithItsLine) {
   const auto expect = [](const std::string& conditions, const std::string& what) { expect_left_out(conditions, what); };
-  expect("*BOUNDARY\nFoot, 4, 6\n", "*BOUNDARY (line 23): it is of rotations, which nodes of solids have not");
+  expect("*BOUNDARY\nFoot, 4, 6\n", "*BOUNDARY (line 23): rotations, which nodes of solids do not have");
   expect("*CLOAD\nFoot, 5, 1\n", "*CLOAD (line 23): a moment; nodes of solids have no rotations");
-  expect("*CLOAD\nHead, 1, 1\n", "*CLOAD (line 23): no such nodes in the mesh");
-  expect("*DLOAD\nAll, BX, 1\n", "*DLOAD (line 23): loads of type BX are not read");
-  expect("*DSLOAD\nTop, HP, 1\n", "*DSLOAD (line 23): loads of type HP are not read");
+  expect("*CLOAD\nHead, 1, 1\n", "*CLOAD (line 23): the mesh has no such nodes");
+  expect("*DLOAD\nAll, BX, 1\n", "*DLOAD (line 23): loads of type BX are not supported");
+  expect("*DSLOAD\nTop, HP, 1\n", "*DSLOAD (line 23): loads of type HP are not supported");
   expect("*STEP, NLGEOM\n*DSLOAD\nTop, TRVEC, 5, 0, 3, 4\n*END STEP\n",
-         "*DSLOAD (line 24): it turns with the surface (FOLLOWER=YES is the default)");
-  expect("*STEP\n*END STEP\n*STEP\n*CLOAD\n7, 1, 1\n", "*CLOAD (line 26): of a later step; the first is taken");
+         "*DSLOAD (line 24): a follower traction (FOLLOWER=YES is the default)");
+  expect("*STEP\n*END STEP\n*STEP\n*CLOAD\n7, 1, 1\n",
+         "*CLOAD (line 26): belongs to a later step; only the first step is converted");
   expect("*BOUNDARY\nFoot, 1\n*STEP\n*BOUNDARY, OP=NEW\nFoot, 2\n",
          "*BOUNDARY (line 23): the first step removes it (OP=NEW)");
   expect("*OUTPUT, FIELD\n", "*OUTPUT (line 22)");

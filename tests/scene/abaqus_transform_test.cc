@@ -8,7 +8,7 @@ namespace {
 
 // Lines 22 to 25: directions that are turned by 45 degrees about z at the nodes 5 to 8.
 const std::string kTurned = "*NSET, NSET=Head\n5, 6, 7, 8\n*TRANSFORM, NSET=Head\n1, 1, 0, -1, 1, 0\n";
-const std::string kWhy = "*TRANSFORM (line 24) turns its directions";
+const std::string kWhy = "*TRANSFORM (line 24) rotates its directions";
 
 TEST(AbaqusTransform, LeavesConditionsAtOtherNodesAlone) {
   const std::string text =
@@ -32,17 +32,17 @@ TEST(AbaqusTransform, LeavesOutConditionsAtItsNodes) {
 
 TEST(AbaqusTransform, OfASetThatTheFileDoesNotHaveMayTurnAll) {
   expect_left_out("*TRANSFORM, NSET=None\n1, 1, 0, -1, 1, 0\n*CLOAD\n7, 1, 1\n",
-                  "*CLOAD (line 25): *TRANSFORM (line 22) turns its directions");
+                  "*CLOAD (line 25): *TRANSFORM (line 22) rotates its directions");
 }
 
 TEST(AbaqusTransform, LeavesOutTheAmplitudeOfWhatItLeavesOut) {
   const std::string deck = kTurned + "*AMPLITUDE, NAME=A\n0, 0, 1, 1\n*BOUNDARY, AMPLITUDE=A\nHead, 1, 1, 2\n";
   expect_left_out(deck, "*BOUNDARY (line 29): " + kWhy);
-  expect_left_out(deck, "*AMPLITUDE A (line 26): nothing that is taken has it");
+  expect_left_out(deck, "*AMPLITUDE A (line 26): not used by a converted condition");
   EXPECT_EQ(brick(deck).text.find("\ntime:"), std::string::npos);
 }
 
-// Three displacements of zero are zero in any directions.
+// Three fixed components are fixed in any directions.
 TEST(AbaqusTransform, LeavesFullyHeldNodesHeld) {
   for (const char* held : {"Head, ENCASTRE\n", "Head, PINNED\n", "Head, 1, 3\n", "Head, 1, 6, 0.\n",
                            "Head, 1\nHead, 2, 2\nHead, 3, 3\n", "Head, XSYMM\nHead, 2, 3\n"}) {
@@ -65,7 +65,7 @@ TEST(AbaqusTransform, ThatTurnsNothingLeavesNothingOut) {
     EXPECT_CONTAINS(text(same), "force: [12, 0, 0]");
   for (const char* other : {"\n1, 0, 0, 0, -1, 0\n", "\n1, 0, 0, 0, 0, 1\n", "\n1, 0, 0, 2, 0, 0\n", "\n",
                             ", TYPE=C\n1, 0, 0, 0, 1, 0\n", ", TYPE=S\n1, 0, 0, 0, 1, 0\n", "\n1, 0, x, 0, 1, 0\n"})
-    EXPECT_CONTAINS(text(other), ": *TRANSFORM (line 24) turns its directions\n");
+    EXPECT_CONTAINS(text(other), ": *TRANSFORM (line 24) rotates its directions\n");
 }
 
 // The part's y is the negative x of space: there the part's transform is none.
@@ -80,7 +80,7 @@ TEST(AbaqusTransform, OfAPartTurnsWithItsInstance) {
     return scene_of_abaqus(folder.path("a.inp"), "a.inp").text;
   };
   EXPECT_CONTAINS(text("90"), "force: [3, 0, 0]");
-  EXPECT_CONTAINS(text("0"), "turns its directions");
+  EXPECT_CONTAINS(text("0"), "*TRANSFORM (line 12)");
 }
 
 }  // namespace

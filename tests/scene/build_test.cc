@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// But for those whose meshes are not shipped: tests/problems/vega_scenes_test.cc.
+// All shipped scenes except those whose meshes are not shipped (tests/problems/vega_scenes_test.cc).
 std::vector<std::string> shipped_scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs")) {
@@ -28,7 +28,7 @@ TEST(ShippedScenes, EachLoadsBuildsAndMakesItsIntegrator) {
     const Scene scene = read_scene(Config::from_file(file));
     const BuiltScene built = build(scene);
     EXPECT_GT(built.model->num_dofs(), 0) << file;
-    if (scene.is_static()) continue;  // has none
+    if (scene.is_static()) continue;  // static scenes have no integrator
     EXPECT_TRUE(scene.integrator->make(*built.model, task_of(scene, built))) << file;
   }
 }
@@ -137,8 +137,8 @@ materials:
 regions: {tip: {material: hard}, all: {material: soft}}
 time: {end: 1}
 )"));
-  EXPECT_EQ(material_in(scene, "tip").density(), 2);
-  EXPECT_EQ(material_in(scene, "body").density(), 1);
+  EXPECT_EQ(material_of(scene, entry_of(scene, "tip").second).density(), 2);
+  EXPECT_EQ(material_of(scene, entry_of(scene, "body").second).density(), 1);
   EXPECT_NEAR(build(scene).model->parts().mass->total(), 3, 1e-14);
 }
 

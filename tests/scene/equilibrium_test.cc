@@ -1,4 +1,4 @@
-// Equilibria of bodies whose supports are on their way: they are those of supports that stand still there.
+// The equilibrium with moving supports equals that with supports at rest in the same place.
 #include <gtest/gtest.h>
 
 #include "lib/simulation/run/setup.h"

@@ -1,4 +1,4 @@
-// Mesh files and generators as a scene names them, and materials that come with a mesh.
+// Mesh files and generators in a scene, and materials of mesh files.
 #include <stdlib.h>  // mkdtemp
 
 #include <cstdlib>
@@ -53,12 +53,12 @@ const std::string kWood =
 // The same numbers typed: nu31 of the file is nu31, R has the axes as columns.
 TEST_F(VegaScene, MaterialsOfTheFileAreThoseTypedInAScene) {
   const Scene from_file = read_scene(Config::from_text(scene(kWood, ""), "scene.yaml"));
-  const Scene typed = read_scene(Config::from_text(
-      scene(kWood,
-            "materials: {wood: {type: orthotropic, density: 400, young: [3e9, 2e9, 1e9], nu12: 0.1, nu23: 0.2, nu31: "
-            "0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: {all: {material: wood, axes: {first: [0, 1, 0], second: "
-            "[-1, 0, 0]}}}\n"),
-      "scene.yaml"));
+  const Scene typed =
+      read_scene(Config::from_text(scene(kWood,
+                                         "materials: {wood: {type: orthotropic, density: 400, young: [3e9, 2e9, 1e9], "
+                                         "nu12: 0.1, nu23: 0.2, nu31: 0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: "
+                                         "{all: {material: wood, axes: {first: [0, 1, 0], second: [-1, 0, 0]}}}\n"),
+                                   "scene.yaml"));
   const auto C = [](const Scene& s) { return voigt(s.materials.at(0).second->stiffness()); };
   EXPECT_EQ(C(from_file), C(typed));
   EXPECT_EQ(from_file.materials[0].second->density(), 400);
@@ -88,7 +88,7 @@ TEST_F(VegaScene, UnstableMaterialsOfTheFileAreRefusedLikeTypedOnes) {
 
 TEST_F(VegaScene, MissingMaterialsAreAskedForIfTheFileHasNone) {
   EXPECT_NE(refusal(scene("", ""))
-                .find("'materials' is missing, and the mesh file brings none; give materials and regions (body)"),
+                .find("'materials' is missing, and the mesh file has none; give materials and regions (body)"),
             std::string::npos);
   EXPECT_NE(
       refusal(replaced(kValidScene, "materials:\n  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}\n", ""))

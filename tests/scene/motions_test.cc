@@ -1,4 +1,4 @@
-// Motions and terms in the words of the input: what is refused, and how.
+// Input of motions and terms: errors and their messages.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,12 +24,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refused{"held_and_moved",
                 "motions: [{surface: y0, translation: [1, 0, 0], " + kStep + "}]",
-                {"motions.0", "moves x of the node at [0, 0, 0] m", "belongs to clamp_1 already", "other components"}},
+                {"motions.0", "moves x of the node at [0, 0, 0] m", "already belongs to clamp_1", "components"}},
         Refused{"moved_twice",
                 "motions: [{surface: x1, name: a, translation: [1, 0, 0], " + kStep +
-                    "}, {nearest: [2, 1, 1], "
-                    "components: [y], displacement: [0, t, 0]}]",
-                {"motions.1", "moves y of the node at [2, 1, 1] m", "belongs to a already"}},
+                    "}, {nearest: [2, 1, 1], components: [y], displacement: [0, t, 0]}]",
+                {"motions.1", "moves y of the node at [2, 1, 1] m", "belongs to a"}},
         Refused{"no_factor",
                 "motions: [{surface: x1, translation: [1, 0, 0]}]",
                 {"motions.0", "'factor' is missing", "smooth_step"}},
@@ -41,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"either"}},
         Refused{"kinks_of_a_factor",
                 "motions: [{surface: x1, translation: [1, 0, 0], kinks: [1], " + kStep + "}]",
-                {"kinks", "a factor knows its own"}},
+                {"kinks", "displacement only"}},
         Refused{"translation_of_free_coordinates",
                 "motions: [{surface: x1, components: [x], translation: [0, 0, 0.01], " + kStep + "}]",
                 {"motions.0.translation", "moves nothing", "'components'"}},
@@ -63,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"motions.0", "'clamp_1' is used twice"}},
         Refused{"no_name",
                 "motions: [{surface: x1, name: a.b, translation: [1, 0, 0], " + kStep + "}]",
-                {"'a.b' is no name", "letters"}},
+                {"'a.b' is not a valid name", "letters"}},
         Refused{"nothing_moves",
                 "motions: [{box: {min: [0.5, 0, 0], max: [2, 1, 1]}, translation: [1, 0, 0], " + kStep + "}]",
                 {"all nodes are clamped or moved"}},

@@ -1,5 +1,5 @@
-"""The JSON Schema of the input, judged by an independent validator: it takes every shipped file and refuses
-what orthodyn refuses. ORTHODYN_EXECUTABLE names the program."""
+"""The JSON Schema of the input, checked with an independent validator: it accepts every shipped file and refuses
+the same input as orthodyn. ORTHODYN_EXECUTABLE names the program."""
 import json
 import os
 import pathlib
@@ -17,7 +17,7 @@ MODELINE = re.compile(r"^# yaml-language-server: \$schema=(\S+)$")
 
 
 class Loader(yaml.SafeLoader):
-    """YAML 1.2 numbers, as editors and orthodyn read them: 1e-3 is one."""
+    """Reads numbers as YAML 1.2 does, like editors and orthodyn: 1e-3 is a number."""
 
 
 Loader.yaml_implicit_resolvers = {c: [(tag, r) for tag, r in resolvers if tag != "tag:yaml.org,2002:float"]
@@ -55,7 +55,7 @@ clamps: [{surface: x0}]
 gravity: [0, 0, -9.81]
 time: {end: 1e-3}
 """
-# What is changed in the scene, and the path at which an editor should mark it.
+# Mistake -> (text in SCENE, its replacement, path that an editor should mark).
 BROKEN = {
     "an unknown key": ("clamps:", "clmaps:", []),
     "an unknown key within": ("cells: [4, 1, 1]", "cells: [4, 1, 1], spilt: six", ["mesh"]),
@@ -71,7 +71,7 @@ BROKEN = {
     "a key of another type": ("nu: 0.3", "nu: 0.3, nu12: 0.3", ["materials", "wood"]),
 }
 
-# Values at keys of each kind, and whether they are allowed: by the schema and by orthodyn alike.
+# Kind of key -> (text in SCENE, its replacement with VALUE, {value: whether schema and orthodyn allow it}).
 GRAIN = "regions: {body: {material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: VALUE}}}\ntime:"
 VALUES = {
     "a length": ("size: [1,", "size: [VALUE,",
@@ -152,7 +152,7 @@ class Schema(unittest.TestCase):
                     for judge in (schema, both):
                         self.assertEqual([e.message for e in errors(path.read_text(), judge)], [])
 
-    def test_shipped_files_are_many(self):
+    def test_there_are_many_shipped_files(self):
         self.assertGreater(len(shipped("scene")), 30)
         self.assertGreater(len(shipped("comparison")), 5)
 
@@ -173,7 +173,7 @@ class Schema(unittest.TestCase):
                 found = errors(SCENE.replace(old, new), schema)
                 self.assertIn(place, [list(e.absolute_path) for e in found], [e.message for e in found])
 
-    def test_what_it_refuses_orthodyn_refuses(self):
+    def test_orthodyn_refuses_the_same_broken_scenes(self):
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder) / "scene.yaml"
             scene.write_text(SCENE)

@@ -1,4 +1,4 @@
-// `orthodyn run` of a buckling analysis, as a user sees it.
+// `orthodyn run` of buckling analyses.
 #include <cmath>
 #include <numbers>
 
@@ -42,12 +42,12 @@ TEST_F(BucklingRun, OfALoadThatPullsFailsWithTheReason) {
 TEST_F(BucklingRun, RefusesWhatHasNoEffect) {
   const struct {
     const char *more, *says;
-  } cases[] = {
-      {"output: {probes: {top: {at: [1, 0, 0]}}}", "load factors and shapes only"},
-      {"output: {extremes: [von_mises.largest]}", "load factors and shapes only"},
-      {"statics: {max_steps: 3}", "no meaning in a linear buckling analysis"},
-      {"motions: [{surface: x1, translation: [-1, 0, 0], factor: {type: constant}}]", "no prescribed displacements"},
-      {"integrator: {type: newmark}", "integrator"}};
+  } cases[] = {{"output: {probes: {top: {at: [1, 0, 0]}}}", "load factors and shapes only"},
+               {"output: {extremes: [von_mises.largest]}", "load factors and shapes only"},
+               {"statics: {max_steps: 3}", "no effect in a linear buckling analysis"},
+               {"motions: [{surface: x1, translation: [-1, 0, 0], factor: {type: constant}}]",
+                "not supported in a buckling analysis"},
+               {"integrator: {type: newmark}", "integrator"}};
   for (const auto& [more, says] : cases) {
     write("column.yaml", kColumn + std::string(more) + "\n");
     const auto result = orthodyn("run column.yaml --out out");

@@ -1,4 +1,4 @@
-// A run whose input files have changed since does not go on.
+// A run does not resume if its input files have changed.
 #include "tests/simulation/resume_fixture.h"
 
 namespace orthodyn::changed_files_test {
@@ -18,7 +18,7 @@ TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
   mesh("1.1");
   const auto result = orthodyn("run tet.yaml --quiet --resume --set time.end=0.2");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.output.find("tet.msh: is not the file"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("tet.msh: has changed"), std::string::npos) << result.output;
 }
 
 // Two tetrahedra; `regions` are the attributes of the two.
@@ -42,7 +42,7 @@ TEST_F(TetgenMesh, ElementsThatChangedTheirRegionsAreRefused) {
   write_elements("2", "1");
   const auto result = orthodyn("run two.yaml --quiet --resume --set time.end=0.2");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.output.find("the mesh is not the one"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("the mesh has changed"), std::string::npos) << result.output;
 }
 
 TEST_F(TetgenMesh, AFileOfTheInputThatHasChangedIsRefusedByItsName) {

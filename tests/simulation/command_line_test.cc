@@ -19,12 +19,12 @@ using CommandLine = InFolder;
 TEST_F(CommandLine, AMistypedCommandIsNamedWithTheNearestOne) {
   const auto result = orthodyn("rnu swing.yaml");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.output.find("there is no command 'rnu'; did you mean 'run'?"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("unknown command 'rnu'; did you mean 'run'?"), std::string::npos) << result.output;
   EXPECT_NE(orthodyn("--plugin").exit_code, 0);
   EXPECT_NE(orthodyn("").output.find("subcommand is required"), std::string::npos);
 }
 
-// The shared library that a function is of.
+// Path of the shared library that contains a function.
 template <class Function>
 std::string library_of(Function* function) {
   Dl_info info{};
@@ -49,7 +49,8 @@ TEST_F(CommandLine, APluginIsRefusedBeforeAndAfterTheCommandUnlessItAddsSomethin
   }
 }
 
-// A bound from below: of that which the method finds for itself, with damping and without.
+// `check` predicts a lower bound of the critical step. It must not exceed the critical step found in the run, with and
+// without damping.
 TEST_F(CommandLine, CheckTellsACriticalStepThatHolds) {
   write("swing.yaml", kSwing);
   const auto number_after = [](const std::string& text, const std::string& words) {
@@ -102,8 +103,8 @@ TEST_F(CommandLine, ReactionsAreRecordedWhereTheSceneAsksForThem) {
   ASSERT_EQ(orthodyn("run swing.yaml --quiet --set output.reactions=true --set clamps.0.name=wall").exit_code, 0);
   const std::string probes = read_text(folder_ / "out/swing/probes.csv"), header = probes.substr(0, probes.find('\n'));
   EXPECT_EQ(header,
-            "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x [N],"
-            "reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
+            "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x "
+            "[N],reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
   ASSERT_EQ(orthodyn("run swing.yaml --quiet --force").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv").find("reaction"), std::string::npos);
 }
@@ -202,7 +203,7 @@ integrator: {type: cvode_bdf, rtol: 1e-3, max_order: 4}
       << result.output;
   const auto scene = read_text(folder_ / "out/beam/scene.yaml");
   EXPECT_NE(scene.find("newmark"), std::string::npos);
-  EXPECT_NE(scene.find("0.001"), std::string::npos) << scene;  // rtol
+  EXPECT_NE(scene.find("0.001"), std::string::npos) << scene;  // the value of rtol
   EXPECT_EQ(orthodyn("check beam.yaml --integrator ida_bdf").output.find("no meaning"), std::string::npos);
 }
 
@@ -219,7 +220,7 @@ TEST_F(CommandLine, TheCommitIsRecordedAndScalesAreShort) {
 
 TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   write("swing.yaml", kSwing);
-  // No file may grow past 20 kB: the first frame does not fit.
+  // Limits the size of files to 20 kB, less than the first frame.
   const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 40; " + program() +
                             " run swing.yaml --quiet --set 'mesh.cells=[16, 4, 4]'");
   EXPECT_EQ(result.exit_code, 3) << result.output;
@@ -235,7 +236,7 @@ TEST_F(CommandLine, ListsStrengthsReactionsAndBuckling) {
   EXPECT_NE(orthodyn("list buckling").output.find("critical load factors"), std::string::npos);
 }
 
-// J, of the run.json of out/swing.
+// energy.balance_drift (J) in run.json of out/swing.
 double balance_drift(const fs::path& folder) {
   return Json::parse(read_text(folder / "out/swing/run.json")).at("energy").at("balance_drift");
 }
@@ -258,7 +259,7 @@ TEST_F(CommandLine, AMuchDriftingBalanceIsAWarning) {
       "run swing.yaml --quiet --force --set damping=null --set 'integrator={type: backward_euler, step: 0.02}'");
   EXPECT_EQ(doubted.exit_code, 0) << doubted.output;
   EXPECT_NE(doubted.output.find("warning: the energy balance drifts by 0."), std::string::npos) << doubted.output;
-  EXPECT_EQ(doubted.output.find("only the start and the end"), std::string::npos) << doubted.output;
+  EXPECT_EQ(doubted.output.find("at the start and the end only"), std::string::npos) << doubted.output;
   EXPECT_GT(balance_drift(folder_), 0);
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"warnings\""), std::string::npos);
 }
@@ -269,8 +270,8 @@ TEST_F(CommandLine, ADriftBetweenTwoRowsSaysThatNothingBetweenThemWasLookedAt) {
       "run swing.yaml --quiet --force --set damping=null --set output.frames=1 --set 'integrator={type: "
       "backward_euler, step: 0.02}'";
   const auto two = orthodyn(run), all = orthodyn(run + " --set output.energy_times=steps");
-  EXPECT_NE(two.output.find("only the start and the end were looked at"), std::string::npos) << two.output;
-  EXPECT_EQ(all.output.find("only the start and the end"), std::string::npos) << all.output;
+  EXPECT_NE(two.output.find("at the start and the end only"), std::string::npos) << two.output;
+  EXPECT_EQ(all.output.find("at the start and the end only"), std::string::npos) << all.output;
 }
 
 TEST_F(CommandLine, DriftOverAllStepsIsThatOfTheWholeRunNotOfItsFrames) {
@@ -297,8 +298,7 @@ TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {
                             " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set "
                             "output.interval=0.01 --set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
                             folder_.string() +
-                            "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "
-                            "kill -INT $pid; wait $pid");
+                            "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; kill -INT $pid; wait $pid");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_NE(result.output.find("interrupted at t ="), std::string::npos) << result.output;
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"interrupted\""), std::string::npos);
@@ -338,7 +338,7 @@ TEST_F(CommandLine, HelpListsTheCommandsInTheOrderOfTheirUseAndHidesThoseOfProce
   }
   for (const std::string name : {"measure", "evaluate", "assess"}) {
     EXPECT_EQ(help.output.find("\n  " + name + " "), std::string::npos) << name;
-    EXPECT_EQ(orthodyn(name).exit_code, 2) << name;  // the folder is missing
+    EXPECT_EQ(orthodyn(name).exit_code, 2) << name;  // because the folder is missing
   }
 }
 

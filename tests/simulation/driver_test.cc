@@ -1,4 +1,4 @@
-// The driver and its files, on small scenes.
+// The time loop and its output files, on small scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(OutputTimes, CoverTheSpanEvenlyAndEndOnIt) {
   EXPECT_TRUE(evenly_spaced(0, 1, 0).empty());
 }
 
-// Wherever the start lies, and for ends that are reached with and without round-off.
+// For any start, and for ends reached with and without round-off.
 TEST(OutputTimes, ByIntervalNeverComeTwice) {
   for (const double start : {0.0, 1e-3, -1.0, 7.0, 1e3, 1e6, -1e6, 1e8})
     for (const double interval : {1e-2, 0.1, 0.3, 1.0 / 3, 7e-3})
@@ -162,7 +162,7 @@ TEST(Driver, TurnsALackOfMemoryIntoAnOutcomeThatSaysSo) {
   EXPECT_STREQ(reason_name(outcome.reason), "out of memory");
 }
 
-// A neighbour in this process works ten times as long.
+// Another run in this process works ten times as long.
 TEST(Outcomes, ARunIsToldItsOwnProcessorTime) {
   const auto work_for = [](std::chrono::milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;
@@ -193,8 +193,7 @@ TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
 
 TEST_F(Files, FramesCarryTheNamesOfRegions) {
   Case two(replaced(kSwing, "cells: [4, 1, 1], order: 1}",
-                    "cells: [4, 1, 1], order: 1, parts: {stiff: {min: [0, 0, 0], "
-                    "max: [0.5, 1, 1]}}}"));
+                    "cells: [4, 1, 1], order: 1, parts: {stiff: {min: [0, 0, 0], max: [0.5, 1, 1]}}}"));
   const TetMesh& mesh = two.built.model->parts().mesh;
   ASSERT_EQ(mesh.region_names.size(), 2u);
   for (const std::vector<std::string>& fields :
@@ -238,7 +237,7 @@ TEST_F(Files, AGrowingFileIsWholeAfterEachEntryAndCanBeCutBack) {
   EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\na longer second entry\n</a>\n");
   GrowingFile again(folder_ / "list", "<a>\n", "</a>\n");
   again.restore(after_first);
-  again.go_on();
+  again.reopen();
   EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n</a>\n");
   again.append("2\n");
   EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n2\n</a>\n");
@@ -255,8 +254,8 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   written.state = {0.1, Vector::Random(50) * 1e-300, Vector::Random(50)};
   written.state.v[3] = std::numeric_limits<double>::infinity();
   written.schedule = {0, 1.0 / 3, 1e-9};
-  written.effort.statistics.newton_iterations = 123456789;
-  written.effort.statistics.solve = {7, 0.3};
+  written.cost.statistics.newton_iterations = 123456789;
+  written.cost.statistics.solve = {7, 0.3};
   written.restarts = {{0.05, "2026-01-31T12:00:00Z", "killed", {"time.end"}}};
   written.observers["energy"].put("last", {0.1, -2e300, 5});
   written.save(folder_ / "c");
@@ -266,8 +265,8 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   EXPECT_EQ(read.state.q, written.state.q);
   EXPECT_EQ(read.state.v, written.state.v);
   EXPECT_EQ(read.schedule.end, written.schedule.end);
-  EXPECT_EQ(read.effort.statistics.newton_iterations, 123456789);
-  EXPECT_EQ(read.effort.statistics.solve.seconds, 0.3);
+  EXPECT_EQ(read.cost.statistics.newton_iterations, 123456789);
+  EXPECT_EQ(read.cost.statistics.solve.seconds, 0.3);
   EXPECT_EQ(read.restarts.at(0).changed, written.restarts[0].changed);
   EXPECT_EQ(read.observers.at("energy").numbers("last", 3), (std::vector<double>{0.1, -2e300, 5}));
   EXPECT_THROW(read.observers.at("energy").number("last"), ConfigError);
@@ -288,7 +287,7 @@ TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
   EXPECT_LT(tight, loose / 30);
 }
 
-// Keeping its part takes a while, as for a large model on a slow disk.
+// An observer that is slow to save, as for a large model on a slow disk.
 struct SlowKeeper : Observer {
   void save(Archive&) override {
     ++saved;

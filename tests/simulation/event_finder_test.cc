@@ -1,4 +1,4 @@
-// When quantities pass values, on given courses over time.
+// Times at which given functions of time pass values.
 #include "lib/simulation/output/event_finder.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ double first(const ObservedState& observed) { return observed.state().q[0]; }
 
 State at(const Course& course, double t) { return {t, Vector::Constant(1, course(t)), Vector::Zero(1)}; }
 
-// All crossings over steps of a given length, from t = 0.
+// All crossings for steps of a given length, from t = 0.
 std::vector<Crossing> crossings(EventFinder& finder, const Course& course, double step, int steps) {
   std::vector<Crossing> all;
   const State initial = at(course, 0);
@@ -122,14 +122,14 @@ TEST(EventFinder, SaysWhichQuantityIsNotFinite) {
 TEST(Events, ThatNeverHappenedAreNamed) {
   const auto wave = [](double t) { return std::sin(t); };
   EventFinder finder({{"middle", first, 0.5}, {"top", first, 1.5}});
-  EXPECT_EQ(finder.silent(), (std::vector<std::string>{"middle", "top"}));
+  EXPECT_EQ(finder.not_found(), (std::vector<std::string>{"middle", "top"}));
   crossings(finder, wave, 0.1, 30);
-  EXPECT_EQ(finder.silent(), std::vector<std::string>{"top"});
+  EXPECT_EQ(finder.not_found(), std::vector<std::string>{"top"});
   Archive archive;
   finder.save(archive);
   EventFinder later({{"middle", first, 0.5}, {"top", first, 1.5}});
   later.restore(archive);
-  EXPECT_EQ(later.silent(), std::vector<std::string>{"top"});
+  EXPECT_EQ(later.not_found(), std::vector<std::string>{"top"});
 }
 
 using SilentEvents = InFolder;

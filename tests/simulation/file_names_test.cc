@@ -1,4 +1,4 @@
-// Names of files that the system cannot look up are faults of the input, wherever they are given.
+// File names that the system cannot look up are input errors, wherever they are given.
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::file_names_test {
@@ -11,7 +11,7 @@ class FileNames : public InFolder {
     fs::create_symlink("circle", folder_ / "circle");
   }
 
-  // Longer than any name, longer than any path, through a file, links in a circle, and nothing there.
+  // Name too long, path too long, path through a file, circular links, missing file.
   static std::vector<std::string> names() {
     return {std::string(300, 'a'), std::string(100'000, 'a'), "swing.yaml/a", "circle", "circle/a", "nowhere"};
   }

@@ -1,4 +1,4 @@
-// A scene is run by the library alone, as a C++ user does, and gives what `orthodyn run` gives.
+// A scene run by the library alone, from C++, gives the results of `orthodyn run`.
 #include <nlohmann/json.hpp>
 
 #include "lib/simulation/simulation.h"
@@ -33,7 +33,7 @@ TEST_F(FiveLines, ASceneRunsWithItsOutputsAndGoesOn) {
   EXPECT_EQ(half.outcome.last.t, 0.2);
   EXPECT_EQ(whole.outcome.status, Status::completed);
   EXPECT_EQ(whole.outcome.last.t, 0.5);
-  EXPECT_GT(whole.motion->effort.statistics.steps, half.motion->effort.statistics.steps);
+  EXPECT_GT(whole.motion->cost.statistics.steps, half.motion->cost.statistics.steps);
   for (const char* name : {"frames.pvd", "probes.csv", "energy.csv", "scene.yaml", "checkpoint.cbor"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
   const auto rows = read_rows(out / "energy.csv");
@@ -77,7 +77,7 @@ TEST_F(FiveLines, ItTellsTheListenerAndPrintsNothing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   ASSERT_EQ(listener.notices.size(), 2u);
   EXPECT_NE(listener.notices[0].find("nothing to resume"), std::string::npos);
-  EXPECT_NE(listener.notices[1].find("repeats with integrator.rtol=0.0001"), std::string::npos);
+  EXPECT_NE(listener.notices[1].find("integrator.rtol=0.0001"), std::string::npos);
   EXPECT_EQ(listener.begun, 2);  // the run, and once more for its error
   EXPECT_EQ(listener.results, std::vector{Status::completed});
   ASSERT_TRUE(result.motion && result.motion->error);

@@ -1,4 +1,4 @@
-// `orthodyn run --slurm` and `orthodyn partition`: a run that goes to a cluster.
+// `orthodyn run --slurm` and `orthodyn partition`: runs on a cluster.
 #include <gtest/gtest.h>
 
 #include "lib/linear/solver.h"
@@ -24,7 +24,7 @@ TEST_F(Jobs, ARunIsPrintedAsAJob) {
   EXPECT_EQ(orthodyn("run 'my \"s\".yaml' --slurm --ranks 2 --set integrator.type=modal").exit_code, 2);
 }
 
-// A line break in a name would end a comment of the script, and what follows would be a command of it.
+// A line break in a name would end a comment of the script and start a command.
 TEST_F(Jobs, NoNameBecomesACommand) {
   for (const std::string break_ : {"\n", "\r", "\t", "\x7f"}) {
     const std::string name = "a" + break_ + "touch made #";
@@ -63,19 +63,19 @@ TEST_F(Jobs, APartitionIsToldForEachNumberOfParts) {
   write("s.yaml", kSwing);
   const auto told = orthodyn("partition s.yaml --parts 2,4,1000 --step 1 --exchanges 10 --reductions 10");
   EXPECT_EQ(told.exit_code, 0) << told.output;
-  EXPECT_NE(told.output.find("\n  1000  more than there are elements"), std::string::npos) << told.output;
+  EXPECT_NE(told.output.find("\n  1000  more parts than elements"), std::string::npos) << told.output;
   const auto row = [](const std::string& output, const std::string& parts) {
     const auto at = output.find("\n" + std::string(6 - parts.size(), ' ') + parts + " ");
     return at == std::string::npos ? "" : output.substr(at + 1, output.find('\n', at + 1) - at - 1);
   };
   EXPECT_NE(row(told.output, "2"), "") << told.output;
-  // The parts of four do not depend on what was asked for before.
+  // The parts for four ranks do not depend on earlier calls.
   const auto four = orthodyn("partition s.yaml --parts 4 --step 1 --exchanges 10 --reductions 10").output;
   EXPECT_EQ(row(told.output, "4"), row(four, "4"));
-  // Nor on threads of the partitioner.
+  // Nor on the number of threads of the partitioner.
   const std::string large = "partition s.yaml --parts 16 --set 'mesh.cells=[60,12,12]'";
   EXPECT_EQ(orthodyn(large).output, orthodyn(large).output);
-  // Two halves of 20 elements, that tell each other next to nothing.
+  // Two halves of 20 elements with little communication.
   const std::string halves =
       row(orthodyn("partition s.yaml --parts 2 --step 1 --exchanges 1 --latency 1e-9").output, "2");
   EXPECT_NE(halves.find(" 10    1.000 "), std::string::npos) << halves;

@@ -1,4 +1,4 @@
-// Runs by modes: what they cost, kinematics that are left open, and how they go on.
+// Modal runs: cost, automatic kinematics, and resumption.
 #include <algorithm>
 
 #include "lib/simulation/output/json.h"
@@ -24,7 +24,7 @@ void expect_said(const CommandResult& result, const std::string& part) {
   EXPECT_NE(result.output.find(part), std::string::npos) << part << "\nin: " << result.output;
 }
 
-// A single short step: nearly all that the run takes is for its modes.
+// A single short step: nearly all the time is spent on the modes.
 TEST_F(ModalRun, CountsTheTimeOfItsModes) {
   write("scene.yaml", kBar +
                           "elasticity: {kinematics: linear}\nintegrator: {type: modal, modes: 40}\n"
@@ -62,18 +62,18 @@ TEST_F(ModalRun, IsRefusedWhereLinearKinematicsWouldNotServe) {
   const auto follows =
       orthodyn("run scene.yaml --out out --set 'terms=[{type: pressure, surface: x1, pressure: 1, follows: true}]'");
   EXPECT_EQ(follows.exit_code, 2) << follows.output;
-  expect_said(follows, "modal integrates linear models only, and this one is not");
+  expect_said(follows, "modal integrates only linear models");
 }
 
-// A start of which the static response knows nothing.
+// An initial state that the static response does not include.
 TEST_F(ModalRun, EndsWhereLinearKinematicsAreOutgrownAndKeepsItsOutput) {
   write("scene.yaml", kBar + kOpen + "initial: {velocity_field: [0, 0, \"x^2\"]}\n");
   const auto result = orthodyn("run scene.yaml --out out --set elasticity.linear_error=1e-3");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   expect_said(result, "linear kinematics are off by");
   expect_said(result,
-              "where 0.001 is allowed; modal is for linear kinematics only: use another integrator, such as "
-              "cvode_bdf, or raise elasticity.linear_error");
+              "where 0.001 is allowed; modal is for linear kinematics only: use another integrator, such as cvode_bdf, "
+              "or raise elasticity.linear_error");
   EXPECT_EQ(result.output.find("starts again"), std::string::npos) << result.output;
   EXPECT_EQ(record("out").at("status"), "failed");
   const std::string probes = read_text(folder_ / "out/probes.csv");

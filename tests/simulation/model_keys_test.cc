@@ -1,8 +1,8 @@
-// run.json tells of every term of the model, with its figures.
+// run.json contains every term of the model with its values.
 #include "lib/simulation/output/json.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::given_terms_test {
+namespace orthodyn::model_keys_test {
 namespace {
 
 const char* const kEveryTerm = R"(
@@ -61,4 +61,4 @@ TEST_F(GivenTerms, WhatASceneDoesNotNameIsNotInTheRecord) {
 }
 
 }  // namespace
-}  // namespace orthodyn::given_terms_test
+}  // namespace orthodyn::model_keys_test

@@ -1,5 +1,5 @@
-// A million frames, rows, load steps or points ask for --yes; check tells disk and time before anything runs.
-#include "lib/simulation/output/output_size.h"
+// A million frames, rows, load steps or points require --yes; `check` estimates disk space and time before a run.
+#include "lib/simulation/preflight/output_size.h"
 
 #include "tests/simulation/run_program.h"
 
@@ -28,7 +28,7 @@ TEST_F(OutputSizeOf, AMillionRowsAreRefused) {
   expect_refused("run swing.yaml --set output.history.interval=5e-7", "rows of tables");
 }
 
-// Fixed steps are counted; of others nobody knows.
+// The number of steps is known for fixed steps only.
 TEST_F(OutputSizeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
   const std::string fixed =
       " swing.yaml --set 'integrator={type: generalized_alpha, step: 1e-7}' --set 'output.history={steps: true}'";
@@ -41,13 +41,12 @@ TEST_F(OutputSizeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
 
 TEST_F(OutputSizeOf, AMillionLoadStepsAreRefused) {
   expect_refused(
-      "run swing.yaml --set analysis=static --set integrator=null --set output.frames=null --set "
-      "statics.max_step=1e-7 --set statics.first_step=1e-7 --set statics.min_step=1e-8 --set "
-      "statics.max_steps=100000000",
+      "run swing.yaml --set analysis=static --set integrator=null --set output.frames=null --set statics.max_step=1e-7 "
+      "--set statics.first_step=1e-7 --set statics.min_step=1e-8 --set statics.max_steps=100000000",
       "load steps");
 }
 
-// It is let through, and ends for its max_steps.
+// The run starts, and ends at max_steps.
 TEST_F(OutputSizeOf, YesHasThemAllTheSame) {
   const std::string run =
       "run swing.yaml --quiet --set output.frames=1000000 --set integrator.max_steps=3 --set integrator.h0=1e-10";
@@ -69,7 +68,7 @@ TEST_F(OutputSizeOf, CheckSaysSoToo) {
 
 TEST_F(OutputSizeOf, CheckTellsTimeAndDisk) {
   const auto said = orthodyn("check swing.yaml");
-  for (const char* words : {"time, from what was measured", "factorisation", "steps", "in all", "disk", "5 frames of"})
+  for (const char* words : {"time, measured", "factorisation", "steps", "in all", "disk", "5 frames of"})
     EXPECT_NE(said.output.find(words), std::string::npos) << words << "\nin: " << said.output;
 }
 
@@ -82,7 +81,7 @@ TEST_F(OutputSizeOf, CheckTellsThatOfEveryAnalysis) {
   }
 }
 
-// To a factor of two, on a mesh where the text around the numbers does not count.
+// Within a factor of two, on a mesh large enough to neglect the text around the numbers.
 TEST_F(OutputSizeOf, FramesAreAsLargeAsWasSaid) {
   const char* const kFine = "mesh.cells=[16,8,8]";
   Config config = Config::from_file((folder_ / "swing.yaml").string());
@@ -106,7 +105,7 @@ quantities: {far: {quantity: tip.displacement.z}}
   EXPECT_NE(result.output.find("1000000 points"), std::string::npos) << result.output;
 }
 
-// The first of two points has the slip of the second, too.
+// Both points cause the same warning.
 TEST_F(OutputSizeOf, ASweepTellsOfASlipOnce) {
   write("s.yaml", R"(scene: {file: swing.yaml, set: {damping.stiffness: 1e4}}
 vary: {materials.soft.density: [1000, 1100]}

@@ -1,4 +1,4 @@
-// Static analyses on several ranks, and motions that start from an equilibrium.
+// Static analyses on several ranks, and motions that start from equilibrium.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@ class StaticsOnRanks : public SeveralRanks {
   }
 };
 
-// A beam bends far.
+// A beam with large deflection.
 const std::string kBent = R"(
 analysis: static
 mesh: {type: box, size: [1, 0.1, 0.1], cells: [12, 2, 2], order: 2}
@@ -39,7 +39,7 @@ TEST_F(StaticsOnRanks, FindTheEquilibriaOfOne) {
     for (const char* key : {"load_steps", "rejected_load_steps"}) EXPECT_EQ(found.at(key), expected.at(key)) << key;
     expect_alike(out, "one", 1e-7, {"probes.csv"});
     const auto error_of = [](const auto& probe) { return probe.at("mesh_error").template get<std::vector<double>>(); };
-    // Of ranks by recovered stresses, of one process by finer elements: of the same size where both see the error.
+    // Several ranks use recovered stresses, one process finer elements: similar where both resolve the error.
     for (const char* probe : {"tip", "middle"}) {
       const double on_ranks = error_of(found.at("probes").at(probe))[2],
                    on_one = error_of(expected.at("probes").at(probe))[2];
@@ -49,7 +49,7 @@ TEST_F(StaticsOnRanks, FindTheEquilibriaOfOne) {
   }
 }
 
-// By a factor, and by conjugate gradients, which find out on their way only that K is indefinite.
+// By factorisation, and by conjugate gradients, which detect an indefinite K only during the iteration.
 TEST_F(StaticsOnRanks, GoPastALimitPoint) {
   const std::string toggle = std::string(ORTHODYN_SOURCE_DIR) + "/configs/scenes/toggle.yaml";
   ASSERT_EQ(orthodyn("run " + toggle + " --quiet --out one").exit_code, 0);
@@ -68,7 +68,7 @@ TEST_F(StaticsOnRanks, GoPastALimitPoint) {
   }
 }
 
-// A column under its own direction buckles: noticed whatever solves, in one process and in two, and left to the same
+// An axially loaded column buckles: every solver detects it on one and several ranks, and leaves the path to the same
 // side.
 const std::string kColumn = R"(
 analysis: static
@@ -100,7 +100,7 @@ TEST_F(StaticsOnRanks, LeaveABifurcationToTheSameSide) {
     }
 }
 
-// Two tetrahedra apart from each other: of three ranks one has nothing.
+// Two separate tetrahedra: one of three ranks is empty.
 TEST_F(StaticsOnRanks, TellOfAPartThatIsNotHeld) {
   write("two.msh",
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 3 0 0\n"

@@ -1,4 +1,4 @@
-// `mpirun -n N orthodyn run`, as a user starts it: results, restarts, what is told, and how it ends.
+// `mpirun -n N orthodyn run`: results, restarts, messages, and failures.
 #include <algorithm>
 
 #include "tests/simulation/several_ranks.h"
@@ -10,14 +10,14 @@ const std::string kShort = "time: {end: 0.4}\nintegrator: {type: generalized_alp
 
 const std::string kEndless = "time: {end: 1000}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
 
-// Of a run in the background with the shell's $pid.
+// Waits for a background run with the process id $pid.
 std::string until_it_has_begun(const std::string& out) {
   return "for i in $(seq 200); do [ -e " + out + "/checkpoint.cbor ] && [ -s " + out +
          "/steps.csv ] && break; sleep 0.05; done; sleep 0.5; ";
 }
 std::string until_it_has_ended() {
-  return "for i in $(seq 300); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done; "
-         "kill -0 $pid 2>/dev/null && { kill -KILL $pid; echo still there; }; wait $pid; }";
+  return "for i in $(seq 300); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done; kill -0 $pid 2>/dev/null && { "
+         "kill -KILL $pid; echo still there; }; wait $pid; }";
 }
 
 TEST_F(SeveralRanks, WriteWhatOneWrites) {
@@ -44,20 +44,21 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
       EXPECT_NEAR(found.at(quantity).at("value"), extreme.at("value"), 1e-6 * extreme.at("value").get<double>());
     EXPECT_EQ(record(out).at("model").at("terms"), record("one").at("model").at("terms"));
     EXPECT_EQ(record(out).at("model").at("unknowns"), record("one").at("model").at("unknowns"));
-    // Several ranks estimate the error from recovered stresses, one process by finer elements, which see more of it.
+    // Several ranks estimate the error from recovered stresses, one process by finer elements, which resolve more of
+    // it.
     EXPECT_GT(record(out).at("errors").at("mesh"), 0.5 * record("one").at("errors").at("mesh").get<double>());
     EXPECT_LE(record(out).at("errors").at("mesh"), record("one").at("errors").at("mesh").get<double>());
   }
 }
 
-// A region may be of one rank alone, and a rank of one region: what needs strengths, or a region at a node, is asked of
-// all ranks.
+// A region may belong to one rank only, and a rank may hold only one region: checks of strengths and of regions at
+// nodes are collective.
 TEST_F(SeveralRanks, KnowWhichRegionsANodeIsOf) {
   const std::string body =
       "mesh: {type: box, size: [2, 1, 1], cells: [4, 2, 2], order: 1, parts: {up: {min: [1, 0, 0], max: [2, 1, 1]}}}\n"
       "materials:\n"
-      "  a: {type: isotropic, density: 1000, young: 1e6, nu: 0.3, strength: {tension: 1e3, compression: 1e3, "
-      "shear: 1e3}}\n"
+      "  a: {type: isotropic, density: 1000, young: 1e6, nu: 0.3, strength: {tension: 1e3, compression: 1e3, shear: "
+      "1e3}}\n"
       "  b: {type: isotropic, density: 1000, young: 2e6, nu: 0.3}\n"
       "clamps: [{surface: x0}]\ngravity: [0, 0, -1]\ntime: {end: 0.1}\n"
       "integrator: {type: arkode_dirk, step: 0.05, rtol: 1e-9}\nelasticity: {kinematics: corotational}\n";
@@ -120,11 +121,11 @@ TEST_F(SeveralRanks, TellAFaultOfTheInputOnce) {
 }
 
 TEST_F(SeveralRanks, TellWhatIsWrongWithACommandLineOnce) {
-  for (const auto& [line, words] : {std::pair{"walk beam.yaml", "there is no command 'walk'"},
+  for (const auto& [line, words] : {std::pair{"walk beam.yaml", "unknown command 'walk'"},
                                     {"run beam.yaml --fast", "--fast"},
-                                    {"check beam.yaml", "is for one process"},
+                                    {"check beam.yaml", "runs as one process only"},
                                     {"--plugin none.so run beam.yaml", "--plugin none.so: no such file"},
-                                    {"run beam.yaml --ranks 2", "has already started 3 ranks"}}) {
+                                    {"run beam.yaml --ranks 2", "mpirun has already started 3 ranks"}}) {
     write("beam.yaml", kBeam + kShort);
     const auto result = orthodyn_on(3, line);
     EXPECT_EQ(result.exit_code, 2) << result.output;
@@ -147,7 +148,7 @@ TEST_F(SeveralRanks, AreStartedByAnOption) {
   EXPECT_EQ(count(bad.output, "error: "), 1) << bad.output;
   const auto nothing = shell("cd " + folder_.string() + " && PATH=/nowhere " + program() + " run beam.yaml --ranks 2");
   EXPECT_EQ(nothing.exit_code, 2) << nothing.output;
-  EXPECT_NE(nothing.output.find("no mpirun on the PATH"), std::string::npos) << nothing.output;
+  EXPECT_NE(nothing.output.find("mpirun is not on the PATH"), std::string::npos) << nothing.output;
   const auto resumed = start("--ranks 3 --quiet --out by_option --resume --set time.end=0.5");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
   EXPECT_EQ(record("by_option").at("restarts").size(), 1u);
@@ -177,7 +178,7 @@ loads: [{surface: x1, force: [-20, 0, 0]}]
   expect_refusal("run column.yaml", "buckling is analysed by one process");
 }
 
-// As at Ctrl-C, which reaches mpirun: what was computed is kept, and the run goes on.
+// As by Ctrl-C, which reaches mpirun: results are kept, and the run can be resumed.
 class InterruptedRanks : public SeveralRanks, public testing::WithParamInterface<const char*> {};
 
 TEST_P(InterruptedRanks, EndTogether) {
@@ -198,7 +199,7 @@ TEST_P(InterruptedRanks, EndTogether) {
 INSTANTIATE_TEST_SUITE_P(Start, InterruptedRanks, testing::Values("mpirun", "option"),
                          [](const auto& how) { return std::string(how.param); });
 
-// The first rank cannot write its frames any more, which the others do not see.
+// Only the first rank notices that frames cannot be written.
 TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {
   write("beam.yaml", kBeam + kEndless);
   const auto result =
@@ -211,7 +212,7 @@ TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {
     EXPECT_NE(read_text(frame.path()).find("</VTKFile>"), std::string::npos) << frame.path();
 }
 
-// One that is killed ends all; what was written is whole, and the run can go on.
+// Killing one rank ends all; the files are intact, and the run can be resumed.
 TEST_F(SeveralRanks, EndTogetherWhenOneIsKilled) {
   write("beam.yaml", kBeam + kEndless);
   const auto result =

@@ -1,4 +1,4 @@
-// Stress and strain of one region, as fields of frames and probes: at a border each region has values of its own.
+// Stress and strain of one region in frames and probes: at an interface each region has its own values.
 #include <gtest/gtest.h>
 
 #include "lib/simulation/output/json.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStrain = 1e-3, kSoft = 1e6, kStiff = 4e6;  // -, Pa
 
-// Two layers that are stretched alike.
+// Two layers under the same stretch.
 class RegionFields : public InFolder {
  protected:
   RegionFields() {
@@ -47,7 +47,7 @@ TEST_F(RegionFields, AreRefusedWhereTheRegionIsNotOrHasNoStrength) {
   const std::string run = "run layers.yaml --quiet --out out --set output.probes.border.";
   const auto elsewhere = orthodyn(run + "'at=[0.5, 0.1, 0]'");
   EXPECT_EQ(elsewhere.exit_code, 2);
-  EXPECT_NE(elsewhere.output.find("'upper.von_mises': the probe's node is not of region upper"), std::string::npos)
+  EXPECT_NE(elsewhere.output.find("'upper.von_mises': the probe's node is not in region upper"), std::string::npos)
       << elsewhere.output;
   const auto weak = orthodyn(run + "fields=[body.max_stress]");
   EXPECT_EQ(weak.exit_code, 2);

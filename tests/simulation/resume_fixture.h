@@ -1,4 +1,4 @@
-// What tests of runs that go on from a checkpoint share.
+// Common parts of the tests of resumed runs.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace orthodyn {
 
-// A soft beam is shaken: it forgets, so that the cost of a restart is what one restart costs.
+// A soft damped beam under a harmonic load: damping erases the past, so that the error of a restart does not
+// accumulate.
 inline const char* const kBeam = R"(
 mesh: {type: box, size: [1, 0.2, 0.2], cells: [6, 2, 2], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
@@ -26,11 +27,11 @@ inline constexpr double kRtol = 1e-4;
 inline const char* const kBdf = "time: {end: 25}\nintegrator: {type: cvode_bdf, rtol: 1e-4}\n";
 inline const char* const kFixedStep = "time: {end: 4}\nintegrator: {type: arkode_dirk, step: 0.02, rtol: 1e-8}\n";
 
-// Root of the mean square difference over the body and the frames, the larger of displacement and velocity,
-// relative to the scales of the integrator, which rtol is relative to as well.
+// Root mean square difference over the body and the frames, the larger of displacement and velocity, relative to the
+// scales of the integrator (as rtol is).
 double difference(const fs::path& a, const fs::path& b);
 
-// Rows at the same times, none lost and none doubled.
+// Checks that rows are at the same times, none lost or repeated.
 void expect_same_times(const fs::path& a, const fs::path& b);
 
 class Resume : public InFolder {

@@ -1,4 +1,4 @@
-// Completed runs that are extended, and who may work in a folder.
+// Completed runs that are extended, and locking of the result folder.
 #include "lib/simulation/output/json.h"
 #include "tests/simulation/resume_fixture.h"
 
@@ -74,7 +74,7 @@ TEST_F(Resume, ARunWithoutAnIntegratorKeepsTheOneThatWasChosen) {
   EXPECT_EQ(record("out").at("status"), "completed");
 }
 
-// Modes that `auto` has chosen are kept, as every choice is.
+// Modes chosen by `auto` are kept, like every automatic choice.
 TEST_F(Resume, ARunByModesThatWereChosenGoesOnWithThem) {
   write("tap.yaml", R"(
 mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}

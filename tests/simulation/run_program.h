@@ -1,4 +1,4 @@
-// Runs the command line as a user would: exit code, what it said, and what it left behind.
+// Runs the program in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,12 +17,12 @@ struct CommandResult {
 
 CommandResult shell(const std::string& command);
 
-// A program of the build, by its path: of the folder ORTHODYN_PROGRAMS, or of the build that these tests are of.
+// Path of a built program: in the folder ORTHODYN_PROGRAMS, or in the build of the tests.
 std::string program(const std::string& name = "orthodyn");
 
 std::string read_text(const fs::path& path);
 
-// A folder of its own for each test, gone afterwards.
+// A temporary folder for each test.
 class InFolder : public testing::Test {
  protected:
   InFolder();

@@ -1,4 +1,4 @@
-// Which values of a scene differ, and which of them a run that goes on may change.
+// Differences between scenes, and those that a resumed run permits.
 #include "lib/simulation/checkpoint/scene_changes.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(SceneChanges, AKeyThatComesOrGoesIsAChange) {
   EXPECT_EQ(changes("a: {b: 1}", "a: 1"), Paths{"a"});
 }
 
-// Round-off makes another text of them, such as that of another number of threads.
+// Round-off, such as by another number of threads, changes these explanations.
 TEST(SceneChanges, WordsOfTheProgramAreNone) {
   EXPECT_EQ(changes("integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 3e-16}",
                     "integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 4e-16}"),

@@ -1,4 +1,4 @@
-// What `orthodyn check` says of the cost of terms, and of those that a scene could do without.
+// `orthodyn check`: cost of terms, and possible savings.
 #include "lib/simulation/preflight/scene_cost.h"
 
 #include <cmath>
@@ -25,18 +25,18 @@ time: {end: 0.1}
 integrator: {type: cvode_bdf, rtol: 1e-3}
 )";
 
-// The sentences that begin with a word, after changes to the beam.
+// The savings that begin with a word, after changes to the beam.
 std::vector<std::string> sentences(const std::vector<std::string>& changes, const std::string& first) {
   Config config = Config::from_text(kBeam);
   for (const auto& change : changes) config.override_with(change);
   const Setup setup = set_up(config);
   std::vector<std::string> found;
-  for (const auto& text : dispensable(setup, term_costs(*setup.built.model, setup.built.initial, 0.01)))
+  for (const auto& text : possible_savings(setup, term_costs(*setup.built.model, setup.built.initial, 0.01)))
     if (text.starts_with(first)) found.push_back(text);
   return found;
 }
 
-TEST(Dispensable, AreLoadsThatHardlyMoveTheBody) {
+TEST(PossibleSavings, AreLoadsThatHardlyMoveTheBody) {
   EXPECT_TRUE(sentences({}, "gravity").empty());
   EXPECT_EQ(sentences({"gravity=[0,0,-1e-4]"}, "gravity").size(), 1u);
   EXPECT_TRUE(sentences({"gravity=[0,0,-1e-4]", "integrator.rtol=1e-8"}, "gravity").empty());
@@ -44,7 +44,7 @@ TEST(Dispensable, AreLoadsThatHardlyMoveTheBody) {
 
 // 3/8 of the weight of a cantilever, upward at its tip, keeps the tip where it was: little work, and a twentieth of the
 // sag.
-TEST(Dispensable, IsNotALoadThatHoldsTheBodyUp) {
+TEST(PossibleSavings, IsNotALoadThatHoldsTheBodyUp) {
   const std::string prop = "loads.0.force=[0,0,36.8]", rtol = "integrator.rtol=0.9";
   const auto response = [](const std::vector<std::string>& changes) {
     Config config = Config::from_text(kBeam);
@@ -59,27 +59,27 @@ TEST(Dispensable, IsNotALoadThatHoldsTheBodyUp) {
   EXPECT_TRUE(sentences({prop, rtol}, "gravity").empty());
 }
 
-TEST(Dispensable, IsDampingThatHasNoTimeToAct) {
+TEST(PossibleSavings, IsDampingThatHasNoTimeToAct) {
   // 16 Hz: beta omega^2 T/2 = 0.05 and 5e-6.
   EXPECT_TRUE(sentences({}, "damping").empty());
   EXPECT_EQ(sentences({"damping.stiffness=1e-8"}, "damping").size(), 1u);
 }
 
-TEST(Dispensable, AreElementsOfARegionThatIsNotStrained) {
+TEST(PossibleSavings, AreElementsOfARegionThatIsNotStrained) {
   EXPECT_TRUE(sentences({}, "region").empty());
   const auto stiff = sentences({"materials.tip.young=1e13"}, "region tip");
   ASSERT_EQ(stiff.size(), 1u);
   EXPECT_NE(stiff[0].find("moves as a rigid body"), std::string::npos) << stiff[0];
 }
 
-TEST(Dispensable, AreLargeRotationsWhereTheResponseIsSmall) {
+TEST(PossibleSavings, AreLargeRotationsWhereTheResponseIsSmall) {
   EXPECT_TRUE(sentences({"loads.0.force=[0,0,-5000]"}, "large rotations").empty());
   EXPECT_EQ(
       sentences({"loads.0.force=[0,0,-1e-3]", "gravity=[0,0,-1e-6]", "integrator.rtol=1e-2"}, "large rotations").size(),
       1u);
 }
 
-TEST(Dispensable, IsAMeshFinerThanTheToleranceAsks) {
+TEST(PossibleSavings, IsAMeshFinerThanTheToleranceAsks) {
   EXPECT_TRUE(sentences({}, "mesh").empty());
   EXPECT_EQ(sentences({"mesh.cells=[40,4,4]", "integrator.rtol=1e-1"}, "mesh").size(), 1u);
 }
@@ -97,7 +97,7 @@ integrator: {type: cvode_bdf, rtol: 1e-4}
 output: {probes: {corner: {at: [0, 0, 0.1]}}}
 )";
 
-// Of a ground too stiff for its frequency to say anything, and of a run that an event ends at its beginning.
+// A ground too stiff for its frequency to be relevant, and a run that an event ends at once.
 TEST_F(Check, ForetellsTheStepsOfContactAndEvents) {
   write("block.yaml", kBouncing);
   const std::string stop = "events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]";
@@ -115,7 +115,7 @@ TEST_F(Check, ForetellsTheStepsOfContactAndEvents) {
   }
 }
 
-// Extremes of a dense history take most of the time of this run.
+// Extremes of a dense history dominate the cost of this run.
 TEST_F(Check, CountsOutputs) {
   Config config = Config::from_text(kBeam);
   config.override_with("output={frames: 5, history: {interval: 1e-5}, extremes: [von_mises.largest]}");
@@ -132,7 +132,7 @@ TEST_F(Check, CountsOutputs) {
 TEST_F(Check, SaysWhyStepsOfContactAndEventsAreUncertain) {
   write("block.yaml", kBouncing);
   const auto said = orthodyn("check block.yaml");
-  EXPECT_NE(said.output.find("while the body touches the ground"), std::string::npos) << said.output;
+  EXPECT_NE(said.output.find("during contact with the ground"), std::string::npos) << said.output;
   EXPECT_EQ(said.output.find("an event may end the run"), std::string::npos) << said.output;
   const auto ended =
       orthodyn("check block.yaml --set 'events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]'");

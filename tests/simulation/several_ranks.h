@@ -1,4 +1,4 @@
-// What tests of several ranks share.
+// Common parts of the tests on several ranks.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class SeveralRanks : public Resume {
     if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << "built without MPI";
   }
 
-  // Also for root, and for more ranks than there are cores.
+  // Permits root, and more ranks than cores.
   static std::string for_any_user() {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
            "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe OMPI_MCA_mpi_yield_when_idle=1 ";
@@ -29,7 +29,7 @@ class SeveralRanks : public Resume {
     return shell("cd " + folder_.string() + " && " + mpirun(ranks) + arguments);
   }
 
-  // Of each column's largest value.
+  // `tolerance`: relative to the largest value of each column.
   void expect_alike(const std::string& name, const std::string& expected, double tolerance,
                     const std::vector<std::string>& files = {"energy.csv", "probes.csv"}) const {
     for (const std::string& file : files) {

@@ -1,4 +1,4 @@
-// `orthodyn run` of static scenes, and events of dynamic ones, as a user sees them.
+// `orthodyn run` of static scenes, and events of dynamic ones.
 #include <cmath>
 #include <numbers>
 
@@ -71,8 +71,8 @@ motions: [{surface: x1, translation: [1e-3, 0, 0], factor: {type: ramp, end: 1}}
 time: {end: 1}
 )");
   const auto result = orthodyn(
-      "run shelf.yaml --out out --set loads=[] --set "
-      "'output.extremes=[nodal_stress.xx.largest, nodal_stress.xx.smallest]'");
+      "run shelf.yaml --out out --set loads=[] --set 'output.extremes=[nodal_stress.xx.largest, "
+      "nodal_stress.xx.smallest]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const char* which : {"largest", "smallest"})  // E times the strain
     EXPECT_NE(result.output.find(std::string("nodal_stress.xx.") + which + (which[0] == 'l' ? ": 1000 Pa" : ": 0 Pa")),
@@ -80,9 +80,8 @@ time: {end: 1}
         << result.output;
 }
 
-// Supports go the way with the load factor: the body is in equilibrium with them all along, and what turns does so
-// about its axis. By symmetry the middle of a twisted bar turns by half the angle; it is drawn in by what is of second
-// order in the twist.
+// Supports move with the load factor, in equilibrium all along; rotating supports turn about their axis. By symmetry
+// the middle of a twisted bar turns by half the angle; its contraction is of second order in the twist.
 TEST_F(StaticRun, MovesSupportsWithTheLoadFactor) {
   write("bar.yaml", R"(
 analysis: static
@@ -103,9 +102,9 @@ output: {probes: {middle: {at: [1, 0, 0], fields: [displacement, nodal_stress]}}
     EXPECT_NEAR(row[4], 1e4 * row[0], 1e-3) << row[0];  // E times the strain
   }
   const auto turned = orthodyn(
-      "run bar.yaml --out turned --set 'clamps=[{surface: x0}]' --set 'motions.0={surface: x1, "
-      "rotation: {axis: [1, 0, 0], point: [0, 0.05, 0.05], angle: 150 deg}, factor: {type: "
-      "constant}}' --set output.probes.middle.at='[1, 0, 0.05]'");
+      "run bar.yaml --out turned --set 'clamps=[{surface: x0}]' --set 'motions.0={surface: x1, rotation: {axis: [1, 0, "
+      "0], point: [0, 0.05, 0.05], angle: 150 deg}, factor: {type: constant}}' --set output.probes.middle.at='[1, 0, "
+      "0.05]'");
   ASSERT_EQ(turned.exit_code, 0) << turned.output;
   for (const auto& row : read_rows(folder_ / "turned/probes.csv")) {
     const double angle = row[0] * 75 * std::numbers::pi / 180, y = row[2] - 0.05, z = row[3];  // from the axis
@@ -116,12 +115,11 @@ output: {probes: {middle: {at: [1, 0, 0], fields: [displacement, nodal_stress]}}
   }
 }
 
-// Displacements that vanish beside the body's size.
+// Displacements negligible beside the body's size.
 TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
   write("shelf.yaml", kShelf);
-  const auto result = orthodyn(
-      "run shelf.yaml --out out --set elasticity.kinematics=linear --set "
-      "'loads.0.traction=[1e-9, 0, 0]'");
+  const auto result =
+      orthodyn("run shelf.yaml --out out --set elasticity.kinematics=linear --set 'loads.0.traction=[1e-9, 0, 0]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const auto& row : read_rows(folder_ / "out/load_steps.csv"))
     if (row[0] > 0) {
@@ -129,18 +127,18 @@ TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
     }
 }
 
-// By the summary's residual: the displacements are right, so that there is nothing to warn of.
+// Only the summary reports the residual: the displacements are accurate, and there is no warning.
 TEST_F(StaticRun, TellsTheResidualThatRoundOffLeavesWithoutAWarning) {
   write("shelf.yaml", kShelf);
   const auto result = orthodyn(
-      "run shelf.yaml --out out --set statics.solver.rtol=1e-15 --set output.mesh_error=false "
-      "--set 'mesh.cells=[20, 4, 4]' --set 'loads.0.traction=[0, 0, 1]'");
+      "run shelf.yaml --out out --set statics.solver.rtol=1e-15 --set output.mesh_error=false --set 'mesh.cells=[20, "
+      "4, 4]' --set 'loads.0.traction=[0, 0, 1]'");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_EQ(result.output.find("warning: the residual"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("of the largest load on a coordinate"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("of the largest load component"), std::string::npos) << result.output;
 }
 
-// The strip does not buckle: R K R^T is no derivative of the warped force.
+// The strip does not buckle: R K R^T is not a derivative of the warped force.
 TEST_F(StaticRun, WithAnApproximateStiffnessDoesNotSpeakOfBuckling) {
   const std::string strip = R"(analysis: static
 mesh: {type: box, size: [1, 0.04, 0.01], cells: [40, 2, 2], order: 1}
@@ -163,7 +161,7 @@ output: {fields: []}
   EXPECT_EQ(exact.exit_code, 0) << exact.output;
 }
 
-// Whatever statics.at_limit: there is neither a limit point nor a bifurcation.
+// For any statics.at_limit: there is neither a limit point nor a bifurcation.
 TEST_F(StaticRun, OfABodyThatIsNotQuiteStraightSaysThatItsStablePathWasFollowed) {
   write("column.yaml", R"(analysis: static
 mesh: {type: box, size: [1, 0.05, 0.01], cells: [20, 2, 1]}
@@ -175,8 +173,8 @@ output: {fields: []}
   for (const char* choice : {"stop", "jump"}) {
     const auto result = orthodyn(std::string("run column.yaml --force --out out --set statics.at_limit=") + choice);
     ASSERT_EQ(result.exit_code, 0) << result.output;
-    for (const char* part : {"sharp turn", "its equilibria stay stable and were followed",
-                             "statics.at_limit acts at limit points and bifurcations only"})
+    for (const char* part :
+         {"sharp turn", "stay stable", "statics.at_limit acts at limit points and bifurcations only"})
       EXPECT_NE(result.output.find(part), std::string::npos) << part << "\nin: " << result.output;
   }
 }
@@ -267,7 +265,7 @@ TEST_F(EventRun, RefusesVectorsUnknownQuantitiesAndAnErrorEstimateOfAStoppedRun)
   write("swing.yaml", swing_with("- {quantity: tip.displacement.z, crosses: -0.01, action: stop}\n"));
   result = orthodyn("run swing.yaml --out out --estimate-error");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.output.find("--estimate-error compares two runs"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("--estimate-error"), std::string::npos) << result.output;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-// Regions of linear elements that are too thin to bend.
+// Regions of linear elements with too few elements through the thickness.
 #include "lib/simulation/preflight/thickness_check.h"
 
 #include <gtest/gtest.h>
 
 #include "lib/simulation/run/setup.h"
 
-namespace orthodyn::layers_test {
+namespace orthodyn::thickness_check_test {
 namespace {
 
 std::vector<std::string> of_box(const std::string& cells, int order) {
@@ -29,4 +29,4 @@ TEST(ThinRegions, AreOneToThreeLinearElementsThick) {
 TEST(ThinRegions, AreNoneOfQuadraticElements) { EXPECT_TRUE(of_box("[8, 1, 1]", 2).empty()); }
 
 }  // namespace
-}  // namespace orthodyn::layers_test
+}  // namespace orthodyn::thickness_check_test

@@ -1,4 +1,4 @@
-// Work of loads and damping along a motion that is known, whose velocities are off as those of stiff methods are.
+// Work of loads and damping along a known motion whose velocities are inaccurate, as those of stiff methods are.
 #include <gtest/gtest.h>
 
 #include "lib/simulation/output/balance.h"
@@ -51,8 +51,8 @@ Vector arbitrary(int n, double size) {
   return x;
 }
 
-// int_0^1 (3 t^2 - 1)^2 dt = 4/5 times the power at speed one. Gauss' two points are off by h^5/4320 times the fourth
-// derivative, 216, in a step: 0.4 % here.
+// int_0^1 (3 t^2 - 1)^2 dt = 4/5 times the power at unit speed. The error of two-point Gauss quadrature is h^5/4320
+// times the fourth derivative, 216, per step: 0.4 % here.
 TEST(WorkAlongPositions, IsTheSameWhateverTheVelocitiesAre) {
   const BuiltScene built = bar();
   const FemModel& model = *built.model;

@@ -10,7 +10,7 @@ namespace {
 
 class WrittenScene : public InFolder {};
 
-// A bar of length 10 under an end pressure of 1 MPa, free to contract: E = 200 GPa. Lengths are in mm.
+// A bar of length 10 mm under an end pressure of 1 MPa, free to contract: E = 200 GPa. Lengths are in mm.
 const std::string kBar = R"(*NODE
 1, 0, 0, 0
 2, 10, 0, 0
@@ -53,7 +53,7 @@ double last_value(const fs::path& file, const std::string& column) {
   return 0;
 }
 
-// F4 of a hexahedron has the nodes 2, 3, 7, 6: the end at x = 10. It moves by -p L / E = -5e-5 mm.
+// Face F4 of a hexahedron has the nodes 2, 3, 7, 6: the end at x = 10. It moves by -p L / E = -5e-5 mm.
 TEST_F(WrittenScene, ABarUnderEndPressureShortensByPressureTimesLengthOverYoungsModulus) {
   write("bar.inp", kBar);
   const CommandResult init = orthodyn("init static bar.yaml --from bar.inp --units mm_t_s");
@@ -67,8 +67,8 @@ TEST_F(WrittenScene, ABarUnderEndPressureShortensByPressureTimesLengthOverYoungs
   EXPECT_NEAR(moved, -5e-8, 1e-6 * 5e-8);
 }
 
-// Linear in between and constant behind the last point, as Abaqus': (0, 0), (2, 1) is 1/2 at the end of a step of 1 s,
-// and the value at 0.5 s still holds there.
+// Linear between points and constant after the last, as in Abaqus: (0, 0), (2, 1) is 1/2 at the end of a step of 1 s,
+// and this value still holds at 0.5 s.
 TEST_F(WrittenScene, StaticsTakeAnAmplitudeAtTheEndOfTheStep) {
   for (const char* points : {"0, 0, 2, 1", "0, 0, 0.25, 7, 0.5, 0.5"}) {
     write("bar.inp", replaced(replaced(kBar, "*STEP", std::string("*AMPLITUDE, NAME=A\n") + points + "\n*STEP"),

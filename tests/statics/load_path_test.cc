@@ -1,4 +1,4 @@
-// The forces of a model while its loads grow, and how fast they grow.
+// Forces on a load path, and their derivative by the load factor lambda.
 #include "lib/statics/load_path.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace orthodyn::load_path_test {
 namespace {
 
-// f = e^t - q.
+// A model with the force f = e^t - q, which does not know its loads.
 class Growing : public SmallModel {
  public:
   Growing() : SmallModel(Matrix::Identity(1, 1)) {}
@@ -26,8 +26,8 @@ class Growing : public SmallModel {
 
 double rate(const LoadPath& path, double lambda) { return path.rate(lambda, Vector::Constant(1, 0.3))[0]; }
 
-// With t = 2 lambda: 2 e^t + 1. Differences of second order over 1e-5 are off by a third of the square of that times
-// the third derivative, 8 e^t, at most.
+// With t = 2 lambda the exact rate is 2 e^t + 1, where 1 is the force at the start, applied as a dead load. The error
+// of second-order differences with the step h = 1e-5 is at most h^2/3 times the third derivative, 8 e^t.
 TEST(LoadPath, HasTheRateOfItsForcesAtItsEndsAsInBetween) {
   const Growing model;
   const LoadPath path(model, {0, 2}, Vector::Zero(1));

@@ -10,8 +10,9 @@
 namespace orthodyn::load_stepper_test {
 namespace {
 
-// Von Mises' truss: two bars of EA = 1 from (-1, 0) and (1, 0) meet at the height z = 0.2 - q, pressed down by a load.
-// The bars follow N = EA (L - L0)/L0, so that P(z) = 2 EA z (1/L - 1/L0).
+// Von Mises' truss: two bars with EA = 1 run from (-1, 0) and (1, 0) to a hinge at the height z = 0.2 - q, which a load
+// presses down. A bar of length L, at rest L0, has the force N = EA (L - L0)/L0, so that the load in equilibrium is
+// P(z) = 2 EA z (1/L - 1/L0).
 class Truss : public SmallModel {
  public:
   explicit Truss(double load) : SmallModel(scalar(1)), load_(load) {}
@@ -20,7 +21,7 @@ class Truss : public SmallModel {
   static double height(const Vector& q) { return kRise - q[0]; }
   static double resistance(double z) { return 2 * z * (1 / std::hypot(1, z) - 1 / rest_length()); }
 
-  // Where dP/dz = 0: L*^3 = b^2 L0 with b = 1.
+  // The height at which dP/dz = 0: there L^3 = b^2 L0 with the half span b = 1.
   static double limit_height() { return std::sqrt(std::pow(rest_length(), 2.0 / 3) - 1); }
   static double limit_load() { return resistance(limit_height()); }
 
@@ -46,7 +47,7 @@ struct Analysis {
                     ->make(path, {std::max(path.largest_load(), 1e-300), 0.1})),
         stepper(path, *solver_, stepping, 0.1) {}
 
-  // The message of the RunError that ends it; "" if all loads are reached.
+  // Steps until the full load. Returns the message of the RunError that ends the analysis early, else "".
   std::string to_the_end() {
     try {
       while (!stepper.done()) {
@@ -78,7 +79,7 @@ TEST(LoadStepper, OfALinearModelIsExactAtEveryLoadFactor) {
   EXPECT_EQ(analysis.to_the_end(), "");
   EXPECT_EQ(analysis.stepper.rejected(), 0);
   ASSERT_EQ(analysis.states.back().t, 1);
-  // Each spring carries the load, 6 N at t = 2 s: u_k = 6 k.
+  // Each spring carries the whole load, 6 N at t = 2 s, so node k = 1, 2, 3 moves by 6 k at the full load.
   for (const State& s : analysis.states)
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.q[k], 6 * s.t * (k + 1), 1e-7 * 18) << s.t;
 }
@@ -133,7 +134,8 @@ TEST(VonMisesTruss, IsFollowedUpToItsLimitAndNoFurther) {
   EXPECT_LE(limit.uncertainty, 1e-6);
 }
 
-// Down to the opposite limit load and up again, to where it hangs. The closed form at each equilibrium.
+// The path falls to the opposite limit load and rises again to the hanging truss. Each equilibrium must satisfy the
+// closed form.
 TEST(VonMisesTruss, IsFollowedThroughItsSnapIfAskedFor) {
   const double load = 1.5 * Truss::limit_load();
   const Truss truss(load);
@@ -162,7 +164,7 @@ TEST(VonMisesTruss, DoesNotHopToTheOtherBranchInOneLongStep) {
   }
 }
 
-// If it is told to, and then only beyond the limit: to the branch where the truss hangs.
+// With AtLimit::jump the stepper jumps to the branch of the hanging truss, but only if the load exceeds the limit.
 TEST(VonMisesTruss, JumpsToTheOtherBranchWhenItMayAndMust) {
   for (const auto& [times, jumps] : {std::pair{0.95, 0}, {1.5, 1}}) {
     const Truss truss(times * Truss::limit_load());
@@ -175,9 +177,10 @@ TEST(VonMisesTruss, JumpsToTheOtherBranchWhenItMayAndMust) {
   }
 }
 
-// A bar of EA = 1 from (0, 0) to (1, 0) pressed along itself; its end is held sideways by a spring of force
-// k y + s y^2 + c y^3. Upright its length is l = 1 - P and its stiffness sideways k - P/l: it buckles at P = k/(1 + k).
-// Aside its force N is l (k + s y + c y^2), and P = x (k + s y + c y^2).
+// A bar with EA = 1 from (0, 0) to (1, 0), under an axial load P at its end (x, y). A spring with the force
+// k y + s y^2 + c y^3 holds the end laterally. While y = 0 the bar has the length l = 1 - P and the lateral stiffness
+// k - P/l, so it buckles at P = k/(1 + k). On the buckled branch the bar's force is N = l (k + s y + c y^2), and
+// P = x (k + s y + c y^2).
 class Strut : public SmallModel {
  public:
   explicit Strut(double load, double skew = 0) : SmallModel(Matrix::Identity(2, 2)), load_(load), skew_(skew) {}
@@ -202,7 +205,7 @@ class Strut : public SmallModel {
     K(1, 1) += kSpring + 2 * skew_ * q[1] + 3 * kCubic * q[1] * q[1];
     return K;
   }
-  double load_, skew_;  // s
+  double load_, skew_;  // P, s
 };
 
 TEST(Strut, IsFollowedUpToItsBifurcation) {
@@ -238,7 +241,7 @@ TEST(Strut, LeavesItsUprightPathIfItMayJump) {
   EXPECT_EQ(analysis.stepper.unstable(), 0);
 }
 
-// The path that crosses the upright one passes all loads within the first step onto it.
+// Here the buckled branch reaches the full load within the first step along it.
 TEST(Strut, ThatBucklesShortOfAllLoadsRestsAsideUnderThem) {
   for (const double beyond : {1e-2, 1e-3, 1e-4, 1e-5}) {
     const double load = (1 + beyond) * Strut::critical_load();
@@ -247,13 +250,14 @@ TEST(Strut, ThatBucklesShortOfAllLoadsRestsAsideUnderThem) {
     EXPECT_EQ(analysis.to_the_end(), "") << beyond;
     for (const State& s : analysis.states) EXPECT_LE(s.t, 1) << beyond;
     const Vector& q = analysis.stepper.state().q;
-    EXPECT_GT(std::abs(q[1]), 0.5 * std::sqrt(beyond * Strut::kSpring)) << beyond;                 // y^2 = beyond k
-    EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8 * load / std::abs(q[1])) << beyond;  // f[1] over y
+    EXPECT_GT(std::abs(q[1]), 0.5 * std::sqrt(beyond * Strut::kSpring)) << beyond;  // exact: y^2 ~ beyond k
+    // The tolerance allows for the error of f[1], divided by y.
+    EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8 * load / std::abs(q[1])) << beyond;
     EXPECT_EQ(analysis.stepper.unstable(), 0) << beyond;
   }
 }
 
-// On one side the crossing path rises and is stable, on the other it falls.
+// On one side the load rises along the buckled branch, which is stable there. On the other side it falls.
 TEST(Strut, OfUnequalSidesLeavesToTheOneOnWhichItIsStable) {
   for (const double skew : {0.05, -0.05}) {
     const double load = 2 * Strut::critical_load();
@@ -266,7 +270,7 @@ TEST(Strut, OfUnequalSidesLeavesToTheOneOnWhichItIsStable) {
   }
 }
 
-// Cannot be evaluated beyond a displacement, which an early Newton step would pass.
+// A bar, q + 10 q^3 = load, that cannot be evaluated for q > 1. Early Newton iterates would exceed this.
 class Fragile : public SmallModel {
  public:
   Fragile() : SmallModel(scalar(1)) {}
@@ -294,7 +298,7 @@ TEST(LoadStepper, CutsBackWhereTheModelCannotBeEvaluated) {
 
 TEST(LoadStepper, SaysHowFarItCameAndWhyNotFurther) {
   Fragile bar;
-  bar.load = 20;  // 11 at q = 1
+  bar.load = 20;  // more than 11, the force at q = 1
   Analysis analysis(bar, {.min_step = 1e-3});
   const std::string message = analysis.to_the_end();
   EXPECT_NE(message.find("no equilibrium was found beyond load factor 0.5"), std::string::npos) << message;
@@ -303,7 +307,7 @@ TEST(LoadStepper, SaysHowFarItCameAndWhyNotFurther) {
   EXPECT_LE(analysis.stepper.state().t, 0.55);
 }
 
-// One end of a spring is drawn away; at half its way the model ends.
+// One end of a spring is moved by t. The model cannot be evaluated for t > 0.5.
 class Drawn : public SmallModel {
  public:
   Drawn() : SmallModel(scalar(1)) {}
@@ -326,13 +330,13 @@ TEST(LoadStepper, EndsWhereItsTangentCannotBeEvaluated) {
   EXPECT_GE(analysis.stepper.state().t, 0.5 - 2e-3);
 }
 
-// Of the bar q + 10 q^3 = lambda, which is farther from the start than q; of the truss, which softens, lambda is
-// nearer.
+// An equilibrium counts as far away if lambda changes by more than the scaled displacement does. This is so for the
+// stiffening bar q + 10 q^3 = lambda, but not for the softening truss.
 TEST(PathTracer, FindsAnEquilibriumAsideUnlessItIsFarAway) {
   const Vector shift = Vector::Constant(1, 0.1 * Truss::kRise);
   const Truss truss(Truss::limit_load());
   Analysis soft(truss, {});
-  const auto found = PathTracer(soft.path, *soft.solver_).aside(shift);
+  const auto found = PathTracer(soft.path, *soft.solver_).branch_at(shift);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->point.q[0], shift[0], 1e-15);
   EXPECT_NEAR(found->point.lambda, Truss::resistance(0.9 * Truss::kRise) / Truss::limit_load(), 1e-7);
@@ -340,8 +344,8 @@ TEST(PathTracer, FindsAnEquilibriumAsideUnlessItIsFarAway) {
   bar.load = 1;
   Analysis stiff(bar, {});
   PathTracer tracer(stiff.path, *stiff.solver_);
-  EXPECT_FALSE(tracer.aside(shift));
-  EXPECT_EQ(tracer.attempt().failure_reason, "Newton's corrections led far away");
+  EXPECT_FALSE(tracer.branch_at(shift));
+  EXPECT_EQ(tracer.last_attempt().failure_reason, "Newton's corrections led far away");
 }
 
 TEST(LoadStepper, GivesUpAfterTheStepsAllowed) {

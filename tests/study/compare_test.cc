@@ -1,4 +1,4 @@
-// `orthodyn compare` as a user meets it: results, failures, interruption.
+// `orthodyn compare` end to end: results, failures, interruption.
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -29,7 +29,7 @@ class Compare : public InFolder {
   Json table() const { return Json::parse(read_text(folder_ / "out/comparisons/c/compare.json")); }
   CommandResult compare(const std::string& more = "") const { return orthodyn("compare c.yaml --no-report" + more); }
 
-  // What must not change when a comparison goes on: the files of finished points.
+  // Files of finished points, which must not change when a comparison is continued.
   std::set<std::pair<std::string, std::string>> finished() const {
     std::set<std::pair<std::string, std::string>> out;
     if (!fs::exists(folder_ / "out/comparisons/c")) return out;
@@ -66,7 +66,7 @@ TEST_F(Compare, MeasuresEveryPointAgainstACheckedReference) {
   EXPECT_EQ(t.at("orders").size(), 2u);
 }
 
-// A probe's displacement is a quantity, too: by either name the error is the same.
+// A probe's displacement as a quantity has the same error as the probe.
 TEST_F(Compare, MeasuresTheErrorsOfQuantities) {
   write("c.yaml", kSmall + std::string("quantities: [von_mises.largest, tip.displacement]\n"));
   const auto done = compare();
@@ -94,7 +94,7 @@ TEST_F(Compare, MeasuresTheErrorsOfQuantities) {
 TEST_F(Compare, RefusesQuantitiesThatASceneDoesNotHaveBeforeItBegins) {
   for (const auto& [quantity, words] : {std::pair{"tsai_wu.largest", "strength"},
                                         {"tpi.displacement", "did you mean"},
-                                        {"energy.balance", "drift of the energy"}}) {
+                                        {"energy.balance", "energy drift"}}) {
     write("c.yaml", std::string("quantities: [") + quantity + "]\n" + kSmall);
     const auto refused = compare();
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
@@ -104,7 +104,7 @@ TEST_F(Compare, RefusesQuantitiesThatASceneDoesNotHaveBeforeItBegins) {
   }
 }
 
-// Of the samples some, so that reference and points have frames at the same times.
+// Frames are a subset of the samples, so that reference and points have the same times.
 TEST_F(Compare, KeepsFramesWhereTheyAreAskedFor) {
   write("c.yaml", kSmall + std::string("frames: {count: 5, fields: [stress]}\n"));
   const auto done = compare();
@@ -133,7 +133,7 @@ TEST_F(Compare, KeepsNoFramesUnasked) {
 }
 
 TEST_F(Compare, RefusesFramesThatCannotBe) {
-  for (const auto& [frames, words] : {std::pair{"{count: 41}", "41 frames of 40 samples"},
+  for (const auto& [frames, words] : {std::pair{"{count: 41}", "41 frames requested, but only 40 samples"},
                                       {"{fields: [displacement, strss]}", "did you mean 'stress'"}}) {
     write("c.yaml", std::string("frames: ") + frames + "\n" + kSmall);
     const auto refused = compare();
@@ -181,7 +181,7 @@ TEST_F(Compare, GoesOnWhereItStopped) {
   for (const auto& file : before) EXPECT_TRUE(finished().contains(file)) << file.first;
 }
 
-// A comparison that runs until it is told to stop, or is done.
+// A comparison in its own process, until it is stopped or done.
 class InBackground {
  public:
   explicit InBackground(const fs::path& folder) {
@@ -204,7 +204,7 @@ class InBackground {
 };
 
 TEST_F(Compare, AKillAtAnyMomentCostsAtMostThePointInProgress) {
-  // After each kill one more result is waited for, so that it comes at different stages.
+  // Each kill waits for one more result, so that kills hit different stages.
   for (std::size_t results = 0; results < 4; ++results) {
     const InBackground running(folder_);
     while (finished().size() < results) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -393,12 +393,12 @@ TEST_F(Compare, SaysSoWhereNothingCouldBeMeasuredAndTriesAgainWhenAsked) {
         "limits: {seconds: 1e-9}\n");
   const auto failed = compare();
   EXPECT_EQ(failed.exit_code, 3);
-  EXPECT_NE(failed.output.find("1 of 1 points failed; the first, swing, cvode_bdf, rtol 0.001: time limit: "),
+  EXPECT_NE(failed.output.find("1 of 1 points failed; first: swing, cvode_bdf, rtol 0.001: time limit: "),
             std::string::npos)
       << failed.output;
   const auto kept = compare();
   EXPECT_NE(kept.output.find("(done before)"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("--retry"), std::string::npos) << kept.output;
   const auto again = compare(" --retry");
   EXPECT_EQ(again.output.find("(done before)"), std::string::npos) << again.output;
 }
@@ -408,7 +408,7 @@ TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {
   write("mine/thesis.tex", "precious");
   const auto done = compare(" --out mine");
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_NE(done.output.find("no comparison"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("mine: "), std::string::npos) << done.output;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "mine"), fs::directory_iterator()), 1);
 }
 

@@ -1,4 +1,4 @@
-// From a comparison file to its points.
+// The points of a comparison file.
 #include "lib/study/compare/comparison_design.h"
 
 #include <limits>
@@ -37,7 +37,7 @@ TEST_F(Expand, TakesEveryRegisteredIntegratorAndOrdersTolerancesFromLooseToTight
   EXPECT_EQ(design.points[1].control, 1e-4);
 }
 
-// central_differences knows no tolerance.
+// central_differences has no tolerance.
 TEST_F(Expand, GivesAnExplicitMethodSharesOfItsCriticalStep) {
   const auto design =
       expanded("scenes: [swing.yaml]\nintegrators: [cvode_bdf, central_differences]\ntolerances: [1e-2]\n");
@@ -64,7 +64,7 @@ vary: {integrator.linear_solver: [klu, cholmod], mesh.cells: [[4, 1, 1], [8, 1, 
   EXPECT_EQ(scene.at("integrator").at("rtol").number(), 1e-3);
 }
 
-// Also where integrators lack what is varied, or take several controls.
+// Also for integrators without a varied key or with several kinds of error control.
 TEST_F(Expand, AsManyPointsAreMadeAsWereCounted) {
   for (const char* text : {"scenes: [swing.yaml]\ntolerances: [1e-4, 1e-2]\n",
                            "scenes: [swing.yaml]\nintegrators: [cvode_bdf, central_differences, generalized_alpha]\n"
@@ -143,7 +143,7 @@ TEST_F(Expand, RefusesWithPlaceAndRemedy) {
   EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [cvode_bfd]\n").find("did you mean 'cvode_bdf'"),
             std::string::npos);
   EXPECT_NE(refusal(good).find("give 'tolerances', 'steps' or both"), std::string::npos);
-  EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("none of the integrators takes them"),
+  EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("no integrator has the key 'step'"),
             std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [2]\n").find("c.yaml:2:14"), std::string::npos);
   EXPECT_NE(refusal("scenes: [swing.yaml, swing.yaml]\ntolerances: [1e-3]\n").find("twice"), std::string::npos);
@@ -183,7 +183,7 @@ TEST(HeadComment, IsOneLineOfText) {
 
 class ShippedComparisons : public testing::TestWithParam<std::string> {};
 
-// Every method on every problem, from loose to tight, each point with what it says in the scene that it runs.
+// Every method on every problem, from loose to tight; the scene of each point has its method and control value.
 TEST_P(ShippedComparisons, MeasureEveryMethodOnEveryProblem) {
   const Comparison comparison = read_comparison(Config::from_file(GetParam()));
   const Design design = expand(comparison);

@@ -1,4 +1,4 @@
-// The estimate of a run's error, where the error is known.
+// The error estimate of runs with known errors.
 #include "lib/simulation/error_estimate/error_estimate.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(ErrorEstimate, TakesFewerSamplesOfALargeModel) {
 }
 
 TEST(ErrorEstimate, ARefinedValueThatIsRefusedIsRefusedBeforeTheRun) {
-  // A tenth of the smallest tolerance is none.
+  // A tenth of the smallest allowed tolerance is not allowed.
   const auto setup = set_up(Config::from_text(kLinear + "integrator: {type: arkode_dirk, step: 0.01, rtol: 1e-14}\n"));
   EXPECT_THROW(ErrorEstimator(setup, Plan{1, {0.5, 1}, false}), ConfigError);
 }

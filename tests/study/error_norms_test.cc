@@ -1,4 +1,4 @@
-// Distances between trajectories, where they are known.
+// Error norms of trajectories with known distances.
 #include "lib/simulation/error_estimate/error_norms.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace orthodyn::error_norms_test {
 namespace {
 
-// A free cube of mass 8 kg that moves as a whole along x by s(t).
+// A free cube of mass 8 kg in rigid translation s(t) along x.
 struct Rigid {
   Rigid()
       : setup(set_up(Config::from_text("mesh: {type: box, size: [2, 2, 2], cells: [1, 1, 1], order: 1}\n"

@@ -1,4 +1,4 @@
-// What figures depend on besides their input.
+// Fingerprints of what results depend on besides their input.
 #include <chrono>
 #include <cstdlib>
 #include <functional>

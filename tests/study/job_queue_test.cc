@@ -1,4 +1,4 @@
-// Jobs in processes: what is done stays done, several at a time, and what dies says how.
+// Job queues: results are kept, several jobs run at a time, and failures are reported.
 #include "lib/study/jobs/job_queue.h"
 
 #include <chrono>
@@ -10,7 +10,7 @@
 namespace orthodyn::study::job_queue_test {
 namespace {
 
-// A shell script stands in for the program; it finds the job's folder in $2.
+// A shell script replaces the program; the job's folder is $2.
 class Jobs : public InFolder {
  protected:
   std::string program(const std::string& script) {
@@ -46,7 +46,7 @@ class Jobs : public InFolder {
                    }});
   }
 
-  // What an earlier run has left.
+  // A result of an earlier run.
   static void leave(const Job& job, const std::string& result) {
     std::filesystem::create_directories(job.folder);
     std::ofstream(job.folder / kResultFile) << result;
@@ -69,7 +69,7 @@ TEST_F(Jobs, EachGetsItsInputAndLeavesItsResult) {
   }
 }
 
-// Two names for the same work.
+// Two jobs with the same folder.
 TEST_F(Jobs, ThoseThatShareAFolderAreDoneOnce) {
   auto all = jobs(2);
   all.push_back(all[0]);
@@ -79,7 +79,7 @@ TEST_F(Jobs, ThoseThatShareAFolderAreDoneOnce) {
   EXPECT_EQ(results_[2], results_[0]);
 }
 
-// Each waits for the mark of the other.
+// Each job waits for a file written by the other.
 TEST_F(Jobs, RunSideBySide) {
   EXPECT_TRUE(run("touch here; until [ -e ../a/here ] && [ -e ../b/here ]; do sleep 0.01; done; " + std::string(kCopy),
                   jobs(2, 20), 2));
@@ -117,7 +117,7 @@ TEST_F(Jobs, WhatFailedIsTriedAgainWhereThatIsAskedFor) {
   EXPECT_EQ(number_at_limits(all), 0u);
 }
 
-// A refusal, say, is final unless it is to be tried again; a crash never is, and what was cut short is no result.
+// A refusal is final unless failures are retried. A crash is never final, and a truncated file is not a result.
 TEST_F(Jobs, WhichResultsAreFinal) {
   const Job job = jobs(1)[0];
   const auto is_final = [&](OldFailures failures) { return !finished_result(job, failures).is_null(); };
@@ -173,13 +173,12 @@ TEST_F(Jobs, OneWorkerTakesThemInTheirOrderAndAStageEndsBeforeTheNextBegins) {
   EXPECT_EQ(order, (std::vector<std::string>{"begin c", "end c", "begin b", "end b", "begin a", "end a"}));
 }
 
-// One that is still at work when another throws would take its hundred seconds.
+// Without an interrupt the other job would take a hundred seconds.
 TEST_F(Jobs, AnErrorEndsThoseInProgress) {
   const auto all = jobs(2, 100);
   const auto started = std::chrono::steady_clock::now();
   const std::string script =
-      "if [ $(basename $2) = b ]; then touch here; sleep 100; fi; "
-      "until [ -e ../b/here ]; do sleep 0.01; done; " +
+      "if [ $(basename $2) = b ]; then touch here; sleep 100; fi; until [ -e ../b/here ]; do sleep 0.01; done; " +
       std::string(kCopy);
   EXPECT_THROW(queue(script, 2).run(all, {.ends = [](std::size_t, const Json&, bool) { throw RunError("no"); }}),
                RunError);

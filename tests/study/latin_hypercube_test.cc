@@ -27,8 +27,8 @@ TEST(LatinHypercube, IsTheSameForASeedAndAnotherForAnother) {
   EXPECT_NE(latin_hypercube(20, 3, 1), latin_hypercube(20, 3, 2));
 }
 
-// The standard ([rand.predef]) says what the 10000th number of the default seed, 5489, is; of one point each dimension
-// takes one.
+// The C++ standard ([rand.predef]) defines the 10000th number of the default seed 5489. One point uses one number per
+// dimension.
 TEST(LatinHypercube, DrawsFromTheGeneratorOfTheStandard) {
   const auto points = latin_hypercube(1, 10000, 5489);
   EXPECT_EQ(points[0][9999], static_cast<double>(std::uint64_t{9981545732273789042u} >> 11) * 0x1p-53);
@@ -37,9 +37,9 @@ TEST(LatinHypercube, DrawsFromTheGeneratorOfTheStandard) {
 TEST(LatinHypercube, StaysBelowOneAtTheEndOfTheLastStratum) {
   const double u = std::nextafter(1.0, 0.0);
   for (const std::size_t n : {1u, 2u, 3u, 7u, 50u, 1000000u}) {
-    EXPECT_LT(share_in(n - 1, u, n), 1) << n;
-    EXPECT_GE(share_in(n - 1, u, n) * static_cast<double>(n), static_cast<double>(n - 1)) << n;
-    EXPECT_EQ(share_in(0, 0, n), 0) << n;
+    EXPECT_LT(position_in(n - 1, u, n), 1) << n;
+    EXPECT_GE(position_in(n - 1, u, n) * static_cast<double>(n), static_cast<double>(n - 1)) << n;
+    EXPECT_EQ(position_in(0, 0, n), 0) << n;
   }
 }
 

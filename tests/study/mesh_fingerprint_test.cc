@@ -1,4 +1,4 @@
-// Fingerprints of meshes decide what is not computed again: any difference that a result could show must change them.
+// Mesh fingerprints decide which results are reused: any difference that affects a result must change them.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -9,7 +9,7 @@
 namespace orthodyn::mesh_fingerprint_test {
 namespace {
 
-// Two elements with a common face, each a region.
+// Two elements with a common face, each in its own region.
 LoadedMesh two_elements() {
   LoadedMesh loaded;
   loaded.mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -94,7 +94,7 @@ const Change kOfTheFile[] = {
 INSTANTIATE_TEST_SUITE_P(File, MeshFingerprint, testing::ValuesIn(kOfTheFile),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// Whatever file it came from, and whatever was said of it.
+// Independent of file name and comments.
 TEST(EqualMeshes, HaveEqualFingerprints) {
   LoadedMesh again = two_elements();
   again.warnings.push_back("a node that no element uses was removed");

@@ -1,4 +1,4 @@
-// The exact solution of linear models: it satisfies the initial values and the equation of motion.
+// The exact solution of linear models satisfies the initial values and the equation of motion.
 #include "lib/simulation/error_estimate/modal_solution.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ time: {end: 1}
 
 Setup linear(const std::string& more) { return set_up(Config::from_text(kLinear + more)); }
 
-// M a - f by differences of the solution's velocity: falls with h^2.
+// Residual M a - f with a from differences of the velocity; falls with h^2.
 double residual(const Model& model, const ModalSolution& solution, double t, double h) {
   const State now = solution.at(t);
   Vector inertia(now.q.size()), force(now.q.size());
@@ -67,7 +67,7 @@ TEST(Modal, AFreeBodyFallsAsItShould) {
   }
 }
 
-// Stiffness damping leaves rigid motion alone, and round-off must not make it drag.
+// Stiffness damping does not act on rigid motion; round-off must not damp it.
 TEST(Modal, AFreeBodyWithStiffnessDampingFallsFreely) {
   const auto setup = linear("gravity: [0, 0, -4]\ndamping: {stiffness: 0.05}\n");
   const auto solution = ModalSolution::find(*setup.built.model, setup.built.initial);
@@ -84,8 +84,8 @@ TEST(Modal, DoesNotPretendForOtherModels) {
   };
   const std::string corotational = std::string(kLinear).replace(kLinear.find("linear"), 6, "corotational");
   EXPECT_TRUE(none(corotational + "clamps: [{surface: x0}]\n"));
-  EXPECT_TRUE(none(kLinear + "clamps: [{surface: x0}]\nloads: [{surface: x1, force: [1, 0, 0], factor: {type: ramp, "
-                             "end: 0.5}}]\n"));
+  EXPECT_TRUE(none(
+      kLinear + "clamps: [{surface: x0}]\nloads: [{surface: x1, force: [1, 0, 0], factor: {type: ramp, end: 0.5}}]\n"));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// The dominant oscillation, on signals made of known ones.
-#include "lib/simulation/error_estimate/phase.h"
-
+// The dominant oscillation of signals with known components.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "lib/simulation/error_estimate/dominant_frequency.h"
 
 namespace orthodyn::phase_test {
 namespace {

@@ -1,4 +1,4 @@
-// Points of studies whose scenes leave their kinematics open.
+// Points of studies whose scenes have `kinematics: auto`.
 #include <cmath>
 
 #include "tests/study/sweep_command.h"
@@ -17,7 +17,7 @@ const std::string kMotion = "integrator: {type: cvode_bdf}\ntime: {end: 0.02}\n"
 
 class PointKinematics : public SweepCommand {
  protected:
-  // The metric and the kinematics of the only point.
+  // Metric and kinematics of the single point.
   std::pair<double, std::string> point(const std::string& rest, const std::string& kinematics) const {
     write("scene.yaml", kBar + rest + "elasticity: {kinematics: " + kinematics + "}\n");
     write("s.yaml",
@@ -45,12 +45,12 @@ class PointKinematics : public SweepCommand {
   }
 };
 
-// Of a velocity the linear static response knows nothing.
+// The linear static response does not include an initial velocity.
 TEST_F(PointKinematics, ThatAreOutgrownInAMotionMeanASecondStart) {
   expect_a_second_start("initial: {velocity_field: [0, 0, \"3*x^2\"]}\n" + kMotion);
 }
 
-// A deflection by 0.8 % of the length is between once and three times what is allowed: beyond that linear is not tried.
+// A deflection of 0.8 % of the length is between one and three times the allowed one; above three, linear is not tried.
 TEST_F(PointKinematics, ThatAreOutgrownInAnEquilibriumMeanASecondStart) {
   expect_a_second_start("loads: [{surface: x1, force: [0, 0, -200]}]\nanalysis: static\n");
 }

@@ -39,7 +39,7 @@ TEST_F(Process, IsKilledWhenItTakesTooMuchMemory) {
   EXPECT_EQ(end.kind, ProcessEnd::Kind::out_of_memory);
 }
 
-// In a session of its own, as mpirun's ranks are in groups of their own.
+// In its own session, as mpirun's ranks are in their own process groups.
 TEST_F(Process, IsKilledWithAllThatItHasStarted) {
   const fs::path child = folder_ / "child";
   std::thread later([&] {

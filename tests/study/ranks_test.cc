@@ -1,4 +1,4 @@
-// `--ranks` of sweeps, refinements and comparisons: each point computed by several processes.
+// `--ranks` of sweep, converge and compare: several processes per point.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ class StudiesOnRanks : public SeveralRanks {
   CommandResult study(const std::string& arguments) const {
     return shell("cd " + folder_.string() + " && " + for_any_user() + program() + " " + arguments + " --no-report");
   }
-  // Bytes, of all points together.
+  // Bytes, summed over all points.
   double memory(const std::string& folder) const {
     double sum = 0;
     for (const auto& file : fs::recursive_directory_iterator(folder_ / folder))
@@ -42,11 +42,11 @@ TEST_F(StudiesOnRanks, SweepsHaveTheFiguresOfOne) {
   const auto one = table("one/sweep.json").at("points"), two = table("two/sweep.json").at("points");
   ASSERT_EQ(two.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
-    const double expected = one[k].at("figures").at("tip");
-    EXPECT_NEAR(two[k].at("figures").at("tip"), expected, 1e-5 * std::abs(expected));
-    EXPECT_EQ(two[k].at("figures").at("steps"), one[k].at("figures").at("steps"));
-    // Two processes have computed it.
-    EXPECT_GT(two[k].at("figures").at("memory"), 1.5 * one[k].at("figures").at("memory").get<double>());
+    const double expected = one[k].at("metrics").at("tip");
+    EXPECT_NEAR(two[k].at("metrics").at("tip"), expected, 1e-5 * std::abs(expected));
+    EXPECT_EQ(two[k].at("metrics").at("steps"), one[k].at("metrics").at("steps"));
+    // Computed by two processes.
+    EXPECT_GT(two[k].at("metrics").at("memory"), 1.5 * one[k].at("metrics").at("memory").get<double>());
   }
   const std::string script = study("sweep s.yaml --ranks 2 --slurm").output;
   EXPECT_NE(script.find("#SBATCH --ntasks=2\n"), std::string::npos) << script;
@@ -63,7 +63,7 @@ TEST_F(StudiesOnRanks, WhatOneProcessComputesIsRefused) {
   EXPECT_EQ(study("converge beam.yaml --modes 2 --ranks 2").exit_code, 2);
 }
 
-// What a rank that fails leaves is told by the others' end, in its own words.
+// The message of a failed rank is reported, although the other ranks end, too.
 TEST_F(StudiesOnRanks, AFailureIsThePointsResult) {
   write("beam.yaml", kBeam + std::string("time: {end: 0.2}\nintegrator: {type: generalized_alpha, step: 0.01}\n"));
   std::string sweep = kSweep;
@@ -96,8 +96,8 @@ output: {probes: {tip: {at: [1, 0.1, 0.1]}}}
   ASSERT_EQ(two.size(), one.size());
   for (std::size_t k = 0; k < two.size(); ++k) {
     EXPECT_EQ(two[k].at("unknowns"), one[k].at("unknowns"));
-    for (const auto& [name, value] : one[k].at("figures").items())
-      EXPECT_NEAR(two[k].at("figures").at(name).at("value").get<double>(), value.at("value"), 1e-6) << name;
+    for (const auto& [name, value] : one[k].at("metrics").items())
+      EXPECT_NEAR(two[k].at("metrics").at(name).at("value").get<double>(), value.at("value"), 1e-6) << name;
   }
 }
 

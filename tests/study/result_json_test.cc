@@ -1,4 +1,4 @@
-// Results on their way from one process to another: what is written as JSON is read as it was.
+// Results written as JSON and read again are unchanged.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Through a file's text, as processes see it.
+// As text, as in a file between processes.
 Json sent(const Json& json) { return Json::parse(to_text(json)); }
 
 Statistics statistics() {
@@ -33,10 +33,13 @@ TrajectoryErrors errors(double size) {
 compare::MeasurementResult measured() {
   compare::MeasurementResult r;
   r.model = compare::ModelSize{12, 34, 56, 0, 0.5};
-  r.decisions = {{"method", "cvode_bdf"}, {"linear_solver", "cholmod"}};
+  r.decisions = Named<std::string>{{"method", "cvode_bdf"}, {"linear_solver", "cholmod"}};
   r.time_reached = 0.5;
   r.factor_bytes = 1024;
-  r.timing = compare::Timing{3, {0.1, 0.05, 1.0 / 3}, {0.2, 0.1, 0.3}, 5e7};
+  r.repeats = 3;
+  r.wall = compare::Spread{0.1, 0.05, 1.0 / 3};
+  r.cpu = compare::Spread{0.2, 0.1, 0.3};
+  r.peak_memory = 5e7;
   r.statistics = statistics();
   r.kind = compare::MeasurementResult::Kind::computed;
   r.drift = compare::Drift{1e-7, kNaN, 1e-9};
@@ -52,7 +55,7 @@ TEST(MeasurementResult, IsReadAsItWasWritten) {
   EXPECT_EQ(sent(to_json(read)), json);
   EXPECT_FALSE(read.failure);
   EXPECT_EQ(read.decisions, measured().decisions);
-  EXPECT_EQ(read.timing->wall.max, 1.0 / 3);
+  EXPECT_EQ(read.wall->max, 1.0 / 3);
   EXPECT_EQ(read.statistics->solve.seconds, 1.0 / 3);
   EXPECT_EQ(read.errors->displacement.l2, 2e-5);
   EXPECT_TRUE(std::isnan(read.errors->velocity.l2));
@@ -75,10 +78,12 @@ TEST(MeasurementResult, OfAReferenceIsReadAsItWasWritten) {
   EXPECT_FALSE(read.statistics);
 }
 
-// With what was known by then, in the order of the keys that files of earlier runs have.
 TEST(MeasurementResult, OfAFailureTellsWhatWasKnown) {
   auto failed = measured();
-  failed.timing.reset();
+  failed.repeats.reset();
+  failed.wall.reset();
+  failed.cpu.reset();
+  failed.peak_memory.reset();
   failed.kind.reset();
   failed.drift.reset();
   failed.drift_over_time.reset();
@@ -89,8 +94,8 @@ TEST(MeasurementResult, OfAFailureTellsWhatWasKnown) {
   const Json json = sent(to_json(failed));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"status", "model", "decisions", "time_reached", "reason", "message",
-                                            "statistics"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"status", "reason", "message", "time_reached", "statistics", "decisions",
+                                            "model"}));
   const auto read = compare::measurement_from(json);
   ASSERT_TRUE(read.failure);
   EXPECT_EQ(read.failure->reason, "too many steps");
@@ -107,10 +112,11 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
   EvaluationResult r;
   r.metrics = {{"far", 1.0 / 3}, {"hertz", kNaN}};
   r.units = {{"far", "m"}, {"hertz", "Hz"}};
-  Statistics s;  // of the work, counts alone are told
+  Statistics s;
   s.steps = 11, s.force.count = 22;
-  r.cost = EvaluationCost{0.5, 0.75, s, 1e8};
-  r.unknowns = 3, r.elements = 6;
+  r.cost = EvaluationCost{.cpu_seconds = 0.5, .wall_seconds = 0.75, .peak_memory = 1e8};
+  r.cost->count(s);
+  r.model = EvaluationModel{3, 6};
   r.frame = "frame.vtu";
   r.kinematics = "linear";
   const Json json = sent(to_json(r));
@@ -120,15 +126,15 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
   EXPECT_TRUE(std::isnan(read.metrics[1].second));
   EXPECT_EQ(read.units, r.units);
   EXPECT_EQ(read.kinematics, r.kinematics);
-  EXPECT_EQ(read.cost->statistics->force.count, 22);
+  EXPECT_EQ(read.cost->forces, 22);
 }
 
 TEST(EvaluationResult, OfModesAloneHasNoCountsOfSteps) {
   EvaluationResult r;
-  r.cost = EvaluationCost{0.5, 0.75, {}, 1e8};
+  r.cost = EvaluationCost{.cpu_seconds = 0.5, .wall_seconds = 0.75, .peak_memory = 1e8};
   const Json json = sent(to_json(r));
   EXPECT_FALSE(json.at("cost").contains("steps"));
-  EXPECT_FALSE(evaluation_from(json).cost->statistics);
+  EXPECT_FALSE(evaluation_from(json).cost->steps);
 }
 
 TEST(EvaluationResult, OfAFailureKeepsItsReason) {
@@ -141,15 +147,17 @@ TEST(EvaluationResult, OfAFailureKeepsItsReason) {
 
 TEST(EvaluationInput, IsReadAsItWasWritten) {
   EvaluationInput input;
-  WantedMetric motion, mode;
-  motion.quantity = "tip.displacement.z", motion.take = Take::frequency, motion.at = 0.5;
+  WantedMetric motion, mode, factor;
+  motion.quantity = "tip.displacement.z", motion.take = TimeReduction::frequency, motion.at = 0.5;
   mode.along = Component::y, mode.about_equilibrium = true;
-  input.metrics = {{"a", motion}, {"b", mode}};
+  factor.buckling = 2;
+  input.metrics = {{"a", motion}, {"b", mode}, {"c", factor}};
   input.frame = "stress", input.frame_at = 0.25, input.code = "c0de";
   const auto read = evaluation_input_from(sent(to_json(input)));
   EXPECT_EQ(to_json(read), to_json(input));
-  EXPECT_EQ(read.metrics[0].second.take, Take::frequency);
+  EXPECT_EQ(read.metrics[0].second.take, TimeReduction::frequency);
   EXPECT_EQ(read.metrics[1].second.along, Component::y);
+  EXPECT_EQ(read.metrics[2].second.buckling, 2);
 }
 
 TEST(StabilityResult, IsReadAsItWasWritten) {
@@ -171,7 +179,7 @@ TEST(StabilityResult, IsReadAsItWasWritten) {
   EXPECT_EQ(read.run->statistics->tangent.count, 55);
 }
 
-// A process that leaves no grade: refused by the integrator, killed, or dead.
+// Without a grade: refused by the integrator, killed or crashed.
 TEST(StabilityResult, WithoutAGradeIsARefusalOrAFailure) {
   const auto of = [](const char* reason) {
     return stability::stability_result_from(sent(to_json(Failure{reason, "what was said"})));

@@ -1,4 +1,4 @@
-// Metrics of a series, on functions whose metrics are known.
+// Metrics of series of functions with known metrics.
 #include "lib/study/quantities/series.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ TEST(Series, WhatDoesNotSwingHasNoFrequency) {
 }
 
 TEST(Series, SettlesWhereItsLastExcursionEnds) {
-  // exp(-t) cos(10 t) starts at 1 and has its least value, -0.73, at 0.304: within 5 % of that range after the peak at
-  // 2.19, before the one at 2.50.
+  // exp(-t) cos(10 t) starts at 1 and has its minimum, -0.73, at 0.304: it stays within 5 % of that range from a time
+  // between the peaks at 2.19 and 2.50.
   const Series s = sample([](double t) { return std::exp(-t) * std::cos(10 * t); }, 8, 8000);
   const double settled = settling_time(s, 0.05);
   EXPECT_GT(settled, 2.19);

@@ -1,16 +1,15 @@
-// `orthodyn stability` as a user meets it: grades, refusals, errors, and what a kill costs.
+// `orthodyn stability` end to end: grades, refusals, errors, and kills.
 #include <map>
 #include <random>
 
 #include "lib/study/jobs/json_values.h"
-#include "lib/study/stability/case_grade.h"
-#include "lib/study/stability/suspected.h"
+#include "lib/study/stability/stability_matrix.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::stability::stability_test {
 namespace {
 
-// Falls by g t^2 / 2 = 4.905 m in a second.
+// Free fall: g t^2 / 2 = 4.905 m in one second.
 const std::string kFall = R"(# A block falls.
 mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
@@ -55,9 +54,7 @@ TEST_F(StabilityCommand, SuspectsAnExpectationThatAllIntegratorsMissAlike) {
   write("fall.yaml", expecting(5.105));
   write("m.yaml", kMatrix);
   const auto done = stability();
-  EXPECT_NE(done.output.find("all 2 integrators that finished agree on end of corner.displacement.z"),
-            std::string::npos)
-      << done.output;
+  EXPECT_NE(done.output.find("agree on end of corner.displacement.z"), std::string::npos) << done.output;
   ASSERT_EQ(table().at("suspected").size(), 1u);
   write("fall.yaml", expecting(4.905));
   stability();
@@ -130,11 +127,11 @@ TEST_F(StabilityCommand, TheSameTrialByTwoNamesIsDoneOnce) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(grade(k), "pass");
 }
 
-// The load's formula ceases to be a number on the way: no refusal, and not tried again.
+// The load's formula becomes NaN during the run: a failure, not a refusal, and it is not repeated.
 TEST_F(StabilityCommand, WhatTheInputDoesWrongInMidRunIsAFailure) {
-  write("fall.yaml", expecting(4.905) +
-                         "loads: [{surface: z1, force: [0, 0, 1], factor: {type: expression, formula: "
-                         "sqrt(0.5-t)}}]\n");
+  write("fall.yaml",
+        expecting(4.905) +
+            "loads: [{surface: z1, force: [0, 0, 1], factor: {type: expression, formula: sqrt(0.5-t)}}]\n");
   write("m.yaml", "cases: [fall.yaml]\nintegrators: [cvode_bdf]\n");
   ASSERT_EQ(stability().exit_code, 0);
   EXPECT_EQ(grade(0), "fail");
@@ -143,16 +140,15 @@ TEST_F(StabilityCommand, WhatTheInputDoesWrongInMidRunIsAFailure) {
 
 TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
   write("m.yaml",
-        "cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, max_steps: 3}, {type: backward_euler, label: slow, "
-        "h_max: 1e-8, max_steps: 100000000}]\nlimits: {seconds: 0.3}\n");
+        "cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, max_steps: 3}, {type: backward_euler, label: slow, h_max: "
+        "1e-8, max_steps: 100000000}]\nlimits: {seconds: 0.3}\n");
   ASSERT_EQ(stability().exit_code, 0);
   EXPECT_EQ(grade(0), "fail");
   EXPECT_NE(table().at("trials").at(0).at("reason").get<std::string>().find("max_steps"), std::string::npos);
   EXPECT_EQ(grade(1), "fail");
   EXPECT_EQ(table().at("trials").at(1).at("reason"), "time limit");
   const auto again = stability();
-  EXPECT_NE(again.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos)
-      << again.output;
+  EXPECT_NE(again.output.find("--retry"), std::string::npos) << again.output;
   const auto retried = stability(" --retry");
   EXPECT_EQ(retried.output.find("(done before)"), std::string::npos) << retried.output;
   EXPECT_EQ(retried.output.find("--retry"), std::string::npos) << retried.output;
@@ -180,10 +176,10 @@ TEST_F(StabilityCommand, RefusesWhatIsWrongBeforeAnythingRuns) {
   write("m.yaml", kMatrix);
   const auto done = stability();
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_NE(done.output.find("nothing can be judged"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("no 'expect' list"), std::string::npos) << done.output;
 }
 
-// Killed again and again while it works, it loses the trials in progress and nothing else.
+// Repeated kills only lose the runs in progress.
 TEST_F(StabilityCommand, AKillCostsTheTrialsInProgress) {
   write("m.yaml", "cases: [fall.yaml]\nintegrators: [all]\n");
   const auto files = [&](const std::string& name) {
@@ -198,8 +194,8 @@ TEST_F(StabilityCommand, AKillCostsTheTrialsInProgress) {
   for (std::size_t kill = 1; kill <= 5; ++kill) {
     const std::size_t enough = before.size() + 1 + random() % 3;
     shell("cd " + folder_.string() + "; " + program() +
-          " stability m.yaml --no-report --jobs 2 > said & pid=$!; "
-          "until [ $(find out -name result.json 2> /dev/null | wc -l) -ge " +
+          " stability m.yaml --no-report --jobs 2 > said & pid=$!; until [ $(find out -name result.json 2> /dev/null | "
+          "wc -l) -ge " +
           std::to_string(enough) + " ]; do sleep 0.005; done; kill -9 $pid; wait $pid");
     const auto after = files("result.json");
     EXPECT_GT(after.size(), before.size());

@@ -1,4 +1,4 @@
-// `orthodyn sweep` in a folder of its own, with a scene of one unknown.
+// Runs `orthodyn sweep` in a temporary folder on a scene with one unknown.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace orthodyn {
 
-// A corner of a cube of one cell moves along x: an oscillator with damping (see configs/cases/one_node_damped.yaml).
+// One node of a cube of one cell moves along x: a damped oscillator (see configs/cases/one_node_damped.yaml).
 inline const char* const kOscillator = R"(mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 elasticity: {kinematics: linear}
@@ -31,7 +31,7 @@ class SweepCommand : public InFolder {
   CommandResult sweep(const std::string& more = "") const { return orthodyn("sweep s.yaml --no-report " + more); }
   Json table() const { return Json::parse(read_text(folder_ / "out/sweeps/s/sweep.json")); }
 
-  // The table without what depends on the machine: times and the date.
+  // The table without times and date.
   std::string metrics() const {
     Json t = table();
     for (auto& point : t.at("points")) point.erase("cost");

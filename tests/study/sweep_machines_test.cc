@@ -23,8 +23,8 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   int kills = 0;  // of sweeps that had finished something, but not all
   for (const char* seconds : {"0", "0.013", "0.029", "0.007", "0.02"}) {
     shell("cd " + folder_.string() + " && { " + program() +
-          " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
-          "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " +
+          " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; while kill -0 $pid && [ $(find out -name result.json | "
+          "wc -l) -le " +
           std::to_string(finished.size()) + " ]; do sleep 0.005; done; sleep " + seconds +
           "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
     ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
@@ -55,7 +55,7 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_EQ(part.exit_code, 3);
   EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
   EXPECT_EQ(table().at("missing"), 8);
-  // Two at a time in one folder, as on a cluster.
+  // Two processes at a time in one folder, as on a cluster.
   shell("cd " + folder_.string() + " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
@@ -68,13 +68,13 @@ TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
   const auto lines_in = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
   const auto missing = [&] {
     const std::string said = sweep("--collect").output;
-    const auto head = said.find("points are missing:\n"), tail = said.find("the same command without");
+    const auto head = said.find("points are missing:\n"), tail = said.find("run the command without");
     return head == std::string::npos ? 0 : lines_in(said.substr(head, tail - head)) - 1;
   };
   EXPECT_EQ(sweep("--task 2/8 --jobs 1").exit_code, 0);
   EXPECT_EQ(missing(), 18);
   EXPECT_EQ(table().at("missing"), 18);
-  // A process that died has left a reason: the point is in the table, and not missing.
+  // A process that died leaves a reason: the point is in the table and not missing.
   const std::string some = results().begin()->first;
   study::write_result(fs::path(some).parent_path(), study::to_json(study::Failure{"crashed", "ended by signal 9"}));
   EXPECT_EQ(missing(), 18);
@@ -98,7 +98,7 @@ TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
   EXPECT_NE(script.find("#SBATCH --array=1-6\n"), std::string::npos) << script;
   EXPECT_NE(script.find("--task \"$SLURM_ARRAY_TASK_ID/6\" --jobs 1"), std::string::npos) << script;
   EXPECT_FALSE(fs::exists(folder_ / "out/sweeps/s"));
-  // A shell that plays the scheduler.
+  // A shell script replaces the scheduler.
   write("array.sh", script);
   shell("cd / && for i in 1 2 3 4 5 6; do SLURM_ARRAY_TASK_ID=$i sh " + (folder_ / "array.sh").string() + "; done");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
@@ -127,7 +127,7 @@ TEST_F(SweepCommand, PrintsNoArrayForANameWithALineBreak) {
   }
 }
 
-// nu = 0.6 is no material, and 'nowhere' no surface.
+// nu = 0.6 is not a valid material, and the surface 'nowhere' does not exist.
 TEST_F(SweepCommand, TellsOfPointsThatCannotBeBeforeAnArrayIsPrinted) {
   const auto array_of = [&](const std::string& vary) {
     write("s.yaml", "scene: scene.yaml\nimpossible: keep\nquantities: {far: {quantity: node.displacement.x}}\nvary: " +
@@ -151,7 +151,7 @@ TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
   write("other/thesis.txt", "mine");
   const auto refused = sweep("--out other");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.output.find("holds files that are no sweep"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("holds files that are not of a sweep"), std::string::npos) << refused.output;
 }
 
 }  // namespace

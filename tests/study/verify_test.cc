@@ -1,4 +1,4 @@
-// Verification: what passes, what misses, what is refused.
+// Verification: passes, failures, refusals.
 #include "lib/study/quantities/verify.h"
 
 #include <sstream>
@@ -8,7 +8,7 @@
 namespace orthodyn::study::verify_test {
 namespace {
 
-// Falls by g t^2 / 2 = 4.905 m in a second.
+// Free fall: g t^2 / 2 = 4.905 m in one second.
 const std::string kFall = R"(mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 gravity: [0, 0, -9.81]
@@ -55,8 +55,8 @@ TEST_F(Verify, TakesMetricsAtATimeAndOverTime) {
   EXPECT_NE(xml.find("tests=\"6\" failures=\"0\" errors=\"0\""), std::string::npos) << xml;
 }
 
-// A rod of one linear element along x: of all modes along it the first, with the displacement u x/L, has
-// omega^2 = 3 E/(rho L^2), for E/rho = 1000 m^2/s^2 and L = 1 m. At the same time its end is at rest.
+// A rod of one linear element along x. Its first axial mode u x/L has omega^2 = 3 E/(rho L^2), with E/rho = 1000
+// m^2/s^2 and L = 1 m. In the dynamic run its end stays at rest.
 TEST_F(Verify, TakesModesBesideMetricsOfAMotion) {
   write("rod.yaml", R"(mesh: {type: box, size: [1, 0.01, 0.01], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
@@ -82,10 +82,9 @@ expect:
 }
 
 TEST_F(Verify, JUnitTellsWhatWasMissedAndEscapesIt) {
-  write("fall.yaml",
-        kFall +
-            "expect: [{quantity: corner.displacement.z, value: 1, relative: 1e-4, source: 'a < b & \"c\"', "
-            "reason: r}]\n");
+  write("fall.yaml", kFall +
+                         "expect: [{quantity: corner.displacement.z, value: 1, relative: 1e-4, source: 'a < b & "
+                         "\"c\"', reason: r}]\n");
   EXPECT_EQ(orthodyn("verify fall.yaml --junit out.xml").exit_code, 1);
   const std::string xml = read_text(folder_ / "out.xml");
   EXPECT_NE(xml.find("<failure message=\"computed -4.905"), std::string::npos) << xml;
@@ -139,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "replaces 'take'"},
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, of: 2", "take: drift"},
                     Refusal{"value: 1, relative: 1", "exactly one of: quantity, mode, buckling"},
-                    Refusal{"mode: 1, value: 1, relative: 1, take: max", "go with a quantity"},
+                    Refusal{"mode: 1, value: 1, relative: 1, take: max", "are for quantities"},
                     Refusal{"mode: 1, value: 1 kg, relative: 1", "Hz"},
                     Refusal{"buckling: 1, value: 1, relative: 1", "analysis: buckling"}));
 

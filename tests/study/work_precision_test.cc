@@ -1,4 +1,4 @@
-// What is read off the points of a method.
+// Time to an error and observed order from the points of a method.
 #include "lib/study/compare/work_precision.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::vector<WorkPoint> law(double p, double q) {
 }
 
 TEST(WorkPrecision, InterpolateAPowerLawExactly) {
-  // error 1e-2 needs control 1e-2^(1/0.8), which takes control^-0.5
+  // error 1e-2 needs control = 1e-2^(1/0.8), time = control^-0.5
   EXPECT_NEAR(*seconds_to_reach(1e-2, law(0.8, 0.5)), std::pow(std::pow(1e-2, 1 / 0.8), -0.5), 1e-12);
 }
 

@@ -22,7 +22,7 @@ integrator: {{type: cvode_bdf}}
                      beam.damped ? "damping: {stiffness: 0.01}" : "");
 }
 
-// A circular arc of half a radian, turned about its own axis by as much.
+// Bends the axis to a circular arc of half a radian and twists the beam by half a radian.
 Vec3 displacement(const Vec3& X) {
   constexpr double kCurvature = 0.5, kTwist = 0.5;  // 1/m
   const Vec3 c(0, X[1] - 0.1, X[2] - 0.1);

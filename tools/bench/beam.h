@@ -1,4 +1,4 @@
-// The beam on which kernels and solvers are measured, in a bent and twisted state with strains of a few per mille.
+// The beam for benchmarks of kernels and solvers, bent and twisted to strains of a few per mille.
 #pragma once
 
 #include "lib/scene/build.h"
@@ -11,7 +11,7 @@ struct Beam {
   std::string material = "orthotropic_stable";  // or isotropic
 };
 
-// With `across` cells over its height and width, and five times as many along it.
+// `across` cells over height and width, 5 `across` cells along the beam.
 class BentBeam {
  public:
   BentBeam(const Beam& beam, int across);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Draws how times and memory grow with the number of elements, from a file of `orthodyn_bench --growth --json` and,
-for a whole step, from results of runs of one scene on several meshes, if there are any:
+"""Plots the growth of times and memory with the number of elements, from a file of `orthodyn_bench --growth --json`.
+The time of a whole step needs results of runs of one scene on at least three meshes:
     tools/bench/growth.py growth.json growth.svg [RESULT/run.json ...]"""
 import json
 import sys
@@ -15,7 +15,7 @@ TIMES = ["force", "tangent", "solve", "symbolic analysis", "factorisation"]
 
 
 def read(file):
-    """Of each measurement the elements, and seconds and bytes."""
+    """For each measurement, rows of elements, seconds and bytes."""
     found = {}
     for result in json.load(open(file))["results"]:
         elements = result["elements"]
@@ -25,7 +25,7 @@ def read(file):
 
 
 def read_steps(files):
-    """Of each run the elements and the seconds of a step: all of the run but its outputs, divided by its steps."""
+    """For each run, the elements and the seconds per step, without the time of outputs."""
     rows = []
     for file in files:
         run = json.load(open(file))
@@ -35,7 +35,7 @@ def read_steps(files):
 
 
 def slope(x, y):
-    """Of the three largest, on logarithmic axes."""
+    """Slope through the three largest sizes on logarithmic axes."""
     return np.polyfit(np.log(x[-3:]), np.log(y[-3:]), 1)[0]
 
 

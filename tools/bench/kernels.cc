@@ -1,18 +1,32 @@
-// Forces, tangents and what follows from them, in nanoseconds an element. Real time: processor time of one thread would
-// hide what it waits for others.
+// Benchmarks of forces, tangents, factorisations and memory bandwidth, in nanoseconds per element of real time. The
+// processor time of one thread would not include the time that it waits for others.
+#include "tools/bench/kernels.h"
+
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include "lib/core/parallel.h"
 #include "lib/linear/solver.h"
 #include "tools/bench/beam.h"
-#include "tools/bench/register.h"
 
 namespace orthodyn::bench {
 
 namespace {
 
-using Body = std::shared_ptr<const BentBeam>;
+// Memory bandwidth: a_i = b_i + s c_i on arrays far larger than the caches (McCalpin's STREAM triad). A force reads at
+// least 160 bytes per element: nine gradients, a volume, four node numbers and a share of the offsets.
+void triad(benchmark::State& state) {
+  constexpr std::size_t kSize = 10'000'000;
+  constexpr double kBytesOfElement = 160;
+  std::vector<double> a(kSize, 0), b(kSize, 1), c(kSize, 2);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < kSize; ++i) a[i] = b[i] + 3 * c[i];
+    benchmark::DoNotOptimize(a.data());
+    benchmark::ClobberMemory();
+  }
+  const double bytes = 3 * sizeof(double) * kSize;
+  state.SetItemsProcessed(static_cast<std::int64_t>(static_cast<double>(state.iterations()) * bytes / kBytesOfElement));
+}
 
 void count(benchmark::State& state, const BentBeam& beam) {
   state.SetItemsProcessed(state.iterations() * beam.num_elements());
@@ -86,10 +100,10 @@ void analysis(benchmark::State& state, const BentBeam& beam) {
   count(state, beam);
 }
 
-// The beam is made when its first benchmark runs, and goes with the last: `--filter` pays for what it names.
-class Later {
+// Builds the beam when its first benchmark runs, so that `--filter` costs only what it selects.
+class LazyBeam {
  public:
-  Later(Beam beam, int across) : beam_(std::move(beam)), across_(across) {}
+  LazyBeam(Beam beam, int across) : beam_(std::move(beam)), across_(across) {}
   const BentBeam& get() {
     if (!body_) body_ = std::make_unique<BentBeam>(beam_, across_);
     return *body_;
@@ -101,19 +115,19 @@ class Later {
   std::unique_ptr<BentBeam> body_;
 };
 
-void add(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
+void add(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam,
          void (*measure)(benchmark::State&, const BentBeam&)) {
-  benchmark::RegisterBenchmark((what + "/" + of).c_str(), [beam, measure](benchmark::State& state) {
+  benchmark::RegisterBenchmark((kernel + "/" + size).c_str(), [beam, measure](benchmark::State& state) {
     measure(state, beam->get());
   })->UseRealTime();
 }
 
-// With as many threads as the machine has.
-void add_threaded(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
+// Runs with all threads of the machine.
+void add_threaded(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam,
                   void (*measure)(benchmark::State&, const BentBeam&)) {
   const int count = available_threads();
   if (count == 1) return;
-  const std::string name = fmt::format("{}, {} threads/{}", what, count, of);
+  const std::string name = fmt::format("{}, {} threads/{}", kernel, count, size);
   benchmark::RegisterBenchmark(name.c_str(), [beam, measure, count](benchmark::State& state) {
     const LoopThreads threads(count);
     measure(state, beam->get());
@@ -127,12 +141,15 @@ struct Size {
 
 }  // namespace
 
+void register_memory() { benchmark::RegisterBenchmark("160 bytes from memory", triad)->UseRealTime(); }
+
 void register_kernels(bool large) {
   std::vector<Size> sizes{{5, "2,700"}, {9, "13,500"}};
   if (large) sizes.push_back({15, "57,600"});
   for (const auto& [across, name] : sizes) {
-    const auto plain = std::make_shared<Later>(Beam{}, across), damped = std::make_shared<Later>(Beam{true}, across),
-               isotropic = std::make_shared<Later>(Beam{false, 1, "isotropic"}, across);
+    const auto plain = std::make_shared<LazyBeam>(Beam{}, across),
+               damped = std::make_shared<LazyBeam>(Beam{true}, across),
+               isotropic = std::make_shared<LazyBeam>(Beam{false, 1, "isotropic"}, across);
     const std::string n = name;
     add("force", n, plain, force);
     add_threaded("force", n, plain, force);
@@ -151,7 +168,7 @@ void register_kernels(bool large) {
     add("solve", n, plain, solve);
     add("symbolic analysis", n, plain, analysis);
   }
-  const auto quadratic = std::make_shared<Later>(Beam{false, 2}, 4);
+  const auto quadratic = std::make_shared<LazyBeam>(Beam{false, 2}, 4);
   add("force, quadratic elements", "6,480", quadratic, force);
   add("tangent, quadratic elements", "6,480", quadratic, tangent);
 }
@@ -160,7 +177,7 @@ void register_growth() {
   const std::vector<Size> sizes{{5, "3,125"},    {7, "8,575"},    {10, "25,000"}, {14, "68,600"},
                                 {20, "200,000"}, {27, "492,075"}, {34, "982,600"}};
   for (const auto& [across, elements] : sizes) {
-    const auto beam = std::make_shared<Later>(Beam{}, across);
+    const auto beam = std::make_shared<LazyBeam>(Beam{}, across);
     const std::string n = std::string(elements) + " elements";
     add("force", n, beam, force);
     add("tangent", n, beam, tangent);

@@ -1,4 +1,4 @@
-// Measures the kernels that a run spends its time in, and compares with what was measured before.
+// Measures the most expensive kernels of a run and compares the times with those of an earlier measurement.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
 #include "lib/linear/blas.h"
-#include "tools/bench/register.h"
+#include "tools/bench/kernels.h"
 #include "tools/bench/results.h"
 
 namespace {
@@ -45,29 +45,29 @@ std::vector<orthodyn::bench::Result> measure(const Request& request) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Times of forces, tangents, factorisations and solves, in nanoseconds an element: the least of several "
-      "repetitions. Trust ratios of one machine, not seconds.");
+      "Times of forces, tangents, factorisations and solves in nanoseconds per element: the minimum of several "
+      "repetitions. Compare results of the same machine only.");
   Request request;
-  app.add_option("--filter", request.filter, "Regular expression of what is measured, such as '^tangent'");
-  app.add_option("--json", request.json, "Writes the figures to a file");
-  app.add_option("--compare", request.compare,
-                 "Ratios to a file of --json; the exit code is 1 where more than 10 % "
-                 "were lost")
+  app.add_option("--filter", request.filter, "Regular expression of the benchmarks to run, such as '^tangent'");
+  app.add_option("--json", request.json, "Write the results to a file");
+  app.add_option(
+         "--compare", request.compare,
+         "Print ratios to an earlier file of --json; the exit code is 1 if a benchmark became more than 10 % slower")
       ->check(CLI::ExistingFile);
-  app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
-  app.add_flag("--large", request.large, "With 57,600 unknowns, too");
+  app.add_option("--repetitions", request.repetitions, "Repetitions of each benchmark")->check(CLI::Range(1, 1000));
+  app.add_flag("--large", request.large, "Also measure 57,600 unknowns");
   app.add_flag("--growth", request.growth,
-               "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB of memory; an hour, or 5 "
-               "minutes with --repetitions 1");
+               "Measure 3,000 to a million elements instead, for tools/bench/growth.py; needs 16 GB of memory and an "
+               "hour, or 5 minutes with --repetitions 1");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::optional<orthodyn::bench::Before> before;
-    if (!request.compare.empty()) before = orthodyn::bench::read_before(request.compare);
+    std::optional<orthodyn::bench::Baseline> baseline;
+    if (!request.compare.empty()) baseline = orthodyn::bench::read_baseline(request.compare);
     const auto results = measure(request);
     if (results.empty()) throw orthodyn::ConfigError(fmt::format("--filter: nothing matches '{}'", request.filter));
-    const int lost = orthodyn::bench::print(results, before);
+    const int slower = orthodyn::bench::print(results, baseline);
     if (!request.json.empty()) orthodyn::write_file(request.json, {orthodyn::bench::to_json(results).dump(1), "\n"});
-    return lost > 0 ? 1 : 0;
+    return slower > 0 ? 1 : 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return 2;

@@ -13,7 +13,7 @@ namespace orthodyn::bench {
 
 namespace {
 
-constexpr double kLost = 1.1;
+constexpr double kSlower = 1.1;  // ratio to the baseline above which a result is marked
 
 Json context() {
   Json out{{"machine", machine_json()}, {"versions", versions_json()}, {"time", utc_now()}};
@@ -28,7 +28,7 @@ Json context() {
 void Collector::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Iteration) continue;
-    const std::string name = run.run_name.function_name;  // without what Google Benchmark adds
+    const std::string name = run.run_name.function_name;  // without the suffix of Google Benchmark
     const double nanoseconds = 1e9 / run.counters.at("items_per_second").value;
     const auto found = std::find_if(results_.begin(), results_.end(), [&](const Result& r) { return r.name == name; });
     if (found != results_.end()) {
@@ -56,9 +56,9 @@ Json to_json(const std::vector<Result>& results) {
   return out;
 }
 
-Before read_before(const std::filesystem::path& file) {
+Baseline read_baseline(const std::filesystem::path& file) {
   std::ifstream in(file);
-  Before before{Json::parse(in, nullptr, false), {}};
+  Baseline before{Json::parse(in, nullptr, false), {}};
   try {
     for (const auto& r : before.context.at("results"))
       before.nanoseconds[r.at("name")] = r.at("nanoseconds_per_element");
@@ -66,38 +66,39 @@ Before read_before(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("{}: not a file of orthodyn_bench --json", file.string()));
   }
   if (before.context.value("clock", "") != "real")
-    throw ConfigError(fmt::format("{}: an earlier version measured it in processor time; measure it again in real time",
-                                  file.string()));
+    throw ConfigError(
+        fmt::format("{}: contains processor times of an earlier version; measure again for real times", file.string()));
   return before;
 }
 
-int print(const std::vector<Result>& results, const std::optional<Before>& before) {
+int print(const std::vector<Result>& results, const std::optional<Baseline>& baseline) {
   const Json at = context();
   fmt::print("{}\n{}\n{}\n{}\n\n", at["machine"].dump(), at["versions"].dump(), at["compiler"].get<std::string>(),
              at["blas"].get<std::string>());
-  fmt::print("{:40} {:>12}{}\n", "one thread, or several", "ns/element", before ? "     before   ratio" : "");
-  int lost = 0;
-  auto left = before ? before->nanoseconds : std::map<std::string, double>();
+  fmt::print("{:40} {:>12}{}\n", "one thread, or several", "ns/element", baseline ? "     before   ratio" : "");
+  int slower = 0;
+  auto left = baseline ? baseline->nanoseconds : std::map<std::string, double>();
   for (const Result& r : results) {
     std::string compared;
     if (const auto old = left.find(r.name); old != left.end()) {
       const double ratio = r.nanoseconds / old->second;
-      compared = fmt::format("{:>11.4g} {:>7.2f}{}", old->second, ratio, ratio > kLost ? "  slower" : "");
-      if (ratio > kLost) ++lost;
+      compared = fmt::format("{:>11.4g} {:>7.2f}{}", old->second, ratio, ratio > kSlower ? "  slower" : "");
+      if (ratio > kSlower) ++slower;
       left.erase(old);
-    } else if (before) {
+    } else if (baseline) {
       compared = "          -       -  not measured before";
     }
     fmt::print("{:40} {:>12.4g}{}\n", r.name, r.nanoseconds, compared);
   }
   for (const auto& [name, nanoseconds] : left)
     fmt::print("{:40} {:>12}{:>11.4g}       -  not measured now\n", name, "-", nanoseconds);
-  if (!before) return lost;
+  if (!baseline) return slower;
   for (const char* what : {"machine", "compiler", "blas"}) {
-    const Json then = before->context.value(what, Json());
-    if (then != at[what]) fmt::print("another {} before, so that ratios tell of both: {}\n", what, then.dump());
+    const Json then = baseline->context.value(what, Json());
+    if (then != at[what])
+      fmt::print("the earlier measurement used another {}, which affects the ratios: {}\n", what, then.dump());
   }
-  return lost;
+  return slower;
 }
 
 }  // namespace orthodyn::bench

@@ -1,4 +1,4 @@
-// Measured times, as a table, as JSON, and against earlier ones.
+// Benchmark results: collecting, printing, comparing, JSON.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -15,11 +15,11 @@ namespace orthodyn::bench {
 
 struct Result {
   std::string name;
-  double nanoseconds = 0;                        // an element: the least of all repetitions
-  double elements = 0, unknowns = 0, bytes = 0;  // 0 where there are none; bytes of a factor
+  double nanoseconds = 0;                        // per element: minimum of all repetitions
+  double elements = 0, unknowns = 0, bytes = 0;  // 0: not applicable; bytes of the factor
 };
 
-// Collects the least time of each benchmark's repetitions, and tells on standard error what is being measured.
+// Collects the minimum time of each benchmark and prints its name on standard error.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -30,19 +30,19 @@ class Collector : public benchmark::BenchmarkReporter {
   std::vector<Result> results_;
 };
 
-// Results of an earlier run, and where it ran.
-struct Before {
+// Results of an earlier measurement and its machine.
+struct Baseline {
   Json context;
-  std::map<std::string, double> nanoseconds;  // an element, by name
+  std::map<std::string, double> nanoseconds;  // per element, by name
 };
 
 Json to_json(const std::vector<Result>& results);
 
-// Throws ConfigError if the file is none of to_json(), or of a version that measured processor time.
-Before read_before(const std::filesystem::path& file);
+// Throws ConfigError if the file is not from to_json(), or from a version that measured processor time.
+Baseline read_baseline(const std::filesystem::path& file);
 
-// Prints machine, versions and a line for each result; with `before` the ratios, a mark where more than 10 % were lost,
-// and what cannot be compared. How many lines have a mark.
-int print(const std::vector<Result>& results, const std::optional<Before>& before);
+// Prints machine, versions and a line per result. With a baseline, also prints ratios and marks results that are more
+// than 10 % slower. Returns the number of marked results.
+int print(const std::vector<Result>& results, const std::optional<Baseline>& baseline);
 
 }  // namespace orthodyn::bench

@@ -1,1 +1,1 @@
-"""Draws what `orthodyn run` has written: pictures of frames, strips, animations and curves."""
+"""Draws the results of orthodyn: pictures, animations, curves, reports and 3D views."""

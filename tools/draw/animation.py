@@ -1,4 +1,4 @@
-"""Frames as one animated GIF with one palette, kept below a size by shrinking it."""
+"""Frames as an animated GIF with one palette, scaled down until it fits a file size."""
 import io
 
 import matplotlib
@@ -12,7 +12,7 @@ from .style import TEXT, pyplot
 
 DPI = 100
 COLOURS = 256
-BUDGET = 3500  # small triangles; more of them would be as small as pixels and look noisy
+BUDGET = 3500  # largest number of small triangles; more would be as small as pixels and look noisy
 
 
 def _rendered(scene, index):
@@ -32,13 +32,14 @@ def _keys(pixels):
 
 
 def _reserved(scene):
-    """Colours (k,3) that must be in the palette as they are: the page's, the axes' and the colour bar's."""
+    """Colours (k,3) that must be in the palette unchanged: those of the page, the axes and the colour bar."""
     named = [matplotlib.colors.to_rgb(c) for c in ("white", TEXT, *AXIS_COLOURS)]
     return np.round(255 * np.vstack([named, scene.colouring.samples(56)])).astype(int)
 
 
 def _palette(used, reserved):
-    """256 colours: the reserved ones, the others chosen from the keys `used`; and the colours of the keys."""
+    """The palette of 256 colours, which are the reserved ones and others chosen for the keys `used`; and the colour of
+    each key."""
     rgb = np.stack([used >> 12, used >> 6 & 63, used & 63], axis=-1) * 4 + 2
     chosen = Image.fromarray(rgb[None].astype(np.uint8)).quantize(COLOURS - len(reserved), Image.Quantize.MEDIANCUT)
     colours = np.array(chosen.getpalette()).reshape(-1, 3)[:COLOURS - len(reserved)]
@@ -46,7 +47,7 @@ def _palette(used, reserved):
 
 
 def _encoded(images, fps, reserved):
-    """GIF bytes with one palette for all frames; every colour becomes its nearest in the palette."""
+    """The GIF as bytes, with one palette for all frames. Every colour is replaced by the nearest one in the palette."""
     keys = [_keys(np.asarray(image)) for image in images]
     used = np.unique(np.concatenate([np.unique(k) for k in keys]))
     palette, rgb = _palette(used, reserved)

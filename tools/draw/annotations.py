@@ -1,4 +1,4 @@
-"""What stands around a body: axis triad, scale bar, colour bar. Positions are inches on the page."""
+"""Axis triad, scale bar and colour bar around a body. Positions are in inches on the page."""
 import matplotlib
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -20,7 +20,7 @@ def page(figure):
 
 
 def triad(axes, camera, x, y, length=0.30):
-    """x, y, z as arrows from (x, y), those that point away first."""
+    """Draws the coordinate axes as arrows from (x, y), the farthest first."""
     for i in np.argsort(camera.toward):
         direction = np.array([camera.right[i], camera.up[i]])
         tip = np.array([x, y]) + length * direction
@@ -52,7 +52,7 @@ def _categories(axes, colouring, right, y):
 
 
 def colour_bar(axes, colouring, right, y, width):
-    """Horizontal bar whose right end is `right`; the label stands above it."""
+    """Draws a horizontal bar that ends at `right`, with its label above."""
     if colouring.categories is not None:
         return _categories(axes, colouring, right, y)
     figure = axes.figure

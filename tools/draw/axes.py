@@ -13,18 +13,18 @@ from .grain import FIELD, SPACING as STROKE_SPACING, Grain
 from .slicing import Section
 from .style import FAINT, pyplot, save
 from .surface import Surface, unit
-from .units import length_label, prefix
+from .units import prefix
 
 SPACING = 0.13  # inches between strokes in a section
-SIDE, TITLE, FOOT = 0.25, 0.34, 0.48  # inches: between panels, above each, and below for its scale bar
+SIDE, TITLE, FOOT = 0.25, 0.34, 0.48  # inches: between panels, above a panel, and below it for the scale bar
 LEGEND = 0.62
 BUDGET = 14000
-END_GRAIN = 0.25  # sine to the line of sight: axis 1 is drawn as a dot below it
+END_GRAIN = 0.25  # sine of the angle between axis 1 and the line of sight, below which axis 1 is drawn as a dot
 WHITE = np.ones(3)
 
 
 def direction_colours(axis):
-    """RGB (n,3): x red, y green, z blue, and in between in the proportion of the squared components."""
+    """RGB (n,3) of directions: red for x, green for y and blue for z, mixed in proportion to the squared components."""
     return unit(axis) ** 2 @ np.array([to_rgb(c) for c in annotations.AXIS_COLOURS])
 
 
@@ -33,7 +33,7 @@ def paler(rgb, part):
 
 
 class _CellColours:
-    """Stands in for a Colouring: the values are numbers of cells."""
+    """A Colouring whose values are indices of cells."""
 
     def __init__(self, rgb):
         self.rgb = rgb
@@ -43,7 +43,7 @@ class _CellColours:
 
 
 class Axes:
-    """A body with its axes, and the three views of it."""
+    """A body with its material axes, and three views of it."""
 
     def __init__(self, path, frame, at=None, view=(-60.0, 20.0)):
         if not len(frame.tets):
@@ -57,7 +57,7 @@ class Axes:
         self.surface = Surface(self.points, frame.tets)
         self.colours = _CellColours(paler(direction_colours(self.axes[0]), 0.35))
         low, high = self.points[self.surface.nodes].min(axis=0), self.points[self.surface.nodes].max(axis=0)
-        digit = 10.0 ** (np.floor(np.log10(high - low)) - 2)  # a middle that reads well
+        digit = 10.0 ** (np.floor(np.log10(high - low)) - 2)  # rounded for the label
         self.at = np.round((low + high) / 2 / digit) * digit if at is None else np.array(at)
         if not ((low <= self.at) & (self.at <= high)).all():
             raise DrawError(f"--at {','.join(f'{v:g}' for v in self.at)} is outside of the body, which extends from "
@@ -90,13 +90,13 @@ class _Surface:
         grain.add(paint, body.frame, body.points, cells, body.colours, camera)
         for outline in filter(len, self.marks):
             flat = camera.flat(outline)
-            longest = np.linalg.norm(outline[:, 1] - outline[:, 0], axis=1).max()  # above the faces that it crosses
+            longest = np.linalg.norm(outline[:, 1] - outline[:, 0], axis=1).max()  # in front of the faces it crosses
             paint.add_segments(flat[:, 0], flat[:, 1], camera.depth(outline.mean(axis=1)) + longest, WHITE, 1.2)
         paint.draw(axes)
 
 
 class _Cut:
-    """The section normal to a coordinate axis, seen from its positive side (y: from the negative)."""
+    """The section normal to a coordinate axis, seen from the axis' positive side (for y: from its negative side)."""
     VIEWS = ((0.0, 0.0), (-90.0, 0.0), (-90.0, 90.0))
 
     def __init__(self, body, axis):
@@ -126,7 +126,7 @@ class _Cut:
                                                linewidths=np.where(on_end, 1.6, width)), autolim=False)
 
     def _places(self, spacing):
-        """A staggered grid over the window."""
+        """Points of a staggered grid over the window."""
         low, high = self.window.low, self.window.high
         rows = np.arange(low[1] + spacing / 2, high[1], spacing * math.sqrt(0.75))
         columns = np.arange(low[0] - spacing, high[0] + spacing, spacing)
@@ -137,7 +137,8 @@ class _Cut:
 
 
 def _panel_sizes(panels):
-    """Inches of each panel: side by side at one height for tall bodies, else one above the other."""
+    """Size (inches) of each panel. For tall bodies the panels have the same height and are side by side, else they are
+    one above the other."""
     aspects = [panel.window.size[0] / panel.window.size[1] for panel in panels]
     tall = aspects[1] < 1.25
     if tall:

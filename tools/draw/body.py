@@ -1,21 +1,21 @@
-"""Paints a body into 2D axes: shaded faces and lines from far to near, faces seen from behind left out."""
+"""Paints a body into 2D axes: shaded front faces and lines, back to front."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .split import split_for
 
-FEW_FACES = 4000  # up to here the edges of the mesh are drawn as well
+FEW_FACES = 4000  # mesh edges are drawn as well for at most this number of faces
 INK = np.array([0.13, 0.14, 0.17])
 
 
 class Paint:
-    """Triangles and segments with their depth, to be drawn in that order."""
+    """Triangles and segments with their depths, drawn in the order of depth."""
 
     def __init__(self):
         self._shapes = []
 
     def add(self, outline, depth, face_rgb, edge_rgb, width):
-        """`outline` (k,3,2); segments are triangles whose last two corners agree."""
+        """Adds triangles, `outline` (k,3,2). A segment is a triangle whose last two corners coincide."""
         k = len(outline)
         rgb = [np.broadcast_to(c, (k, 3)) for c in (face_rgb, edge_rgb)]
         self._shapes.append((outline, depth, *rgb, np.broadcast_to(width, k)))
@@ -36,13 +36,14 @@ def front_faces(surface, flat):
 
 
 def outline_edges(surface, front):
-    """(f,3): edges of visible faces that are sharp or border on an invisible face."""
+    """(f,3): whether an edge of a face is drawn in the outline: the face is visible, and the edge is sharp or borders
+    on an invisible face."""
     hidden = (surface.neighbour < 0) | ~front[surface.neighbour]
     return front[:, None] & (surface.sharp | hidden)
 
 
 def add_body(paint, surface, points, values, colouring, camera, budget):
-    """Faces and edges of the body at `points`; `values` (f,3) at the corners of the faces."""
+    """Adds faces and edges of the body at `points`; `values` (f,3) at the face corners."""
     split = split_for(len(surface.faces), budget)
     front = front_faces(surface, camera.flat(points))
     corners = points[surface.faces[front]]
@@ -55,7 +56,8 @@ def add_body(paint, surface, points, values, colouring, camera, budget):
     paint.add(flat[:, split.triangles].reshape(-1, 3, 2), depth.ravel(), rgb.reshape(-1, 3), rgb.reshape(-1, 3), 0.4)
 
     outline = outline_edges(surface, front)[front]
-    # A neighbour drawn later would cover half of a line's width: lines come nearer by a small triangle's size.
+    # Lines are moved towards the eye by the size of a small triangle. Otherwise a neighbour that is drawn later would
+    # cover half of their width.
     nearer = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)[:, None] / split.n
     for e, rows in enumerate(split.edges):
         owner, start, end = rows.T
@@ -68,7 +70,7 @@ def add_body(paint, surface, points, values, colouring, camera, budget):
 
 
 def draw_ghost(axes, surface, rest, camera):
-    """The outline of the rest shape, behind the body and faintly before it."""
+    """Draws the outline of the rest shape behind the body, and faintly in front of it."""
     flat = camera.flat(rest)
     edge = outline_edges(surface, front_faces(surface, flat))
     ends = np.stack([surface.faces, np.roll(surface.faces, -1, axis=1)], axis=-1)[edge]

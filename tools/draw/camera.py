@@ -1,8 +1,8 @@
-"""Orthographic view from a direction given by azimuth and elevation in degrees about the axis that is up."""
+"""Orthographic view from a direction, given by azimuth and elevation in degrees relative to the up axis."""
 import numpy as np
 
 
-# Each turns the body so that this axis points to z.
+# Rotations that turn this axis to z.
 TURNS = {"x": np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), "y": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]),
          "z": np.eye(3)}
 
@@ -22,18 +22,18 @@ class Camera:
         return np.stack([points @ self.right, points @ self.up], axis=-1)
 
     def depth(self, points):
-        """Larger is nearer to the eye."""
+        """Depth; larger is nearer to the eye."""
         return points @ self.toward
 
     def shade(self, normals):
-        """Lambert shade between 0.6 and 1 with a little light from everywhere."""
+        """Lambert shading between 0.6 and 1, with ambient light."""
         lambert = np.clip(normals @ self.light, 0, 1)
         sky = 0.5 * (1 + normals @ self.up)
         return np.clip(0.60 + 0.32 * lambert + 0.08 * sky, 0, 1)
 
 
 class Window:
-    """The rectangle of the picture plane that holds everything given to `include`."""
+    """The rectangle in the picture plane that bounds everything passed to `include`."""
 
     def __init__(self):
         self.low, self.high = np.full(2, np.inf), np.full(2, -np.inf)
@@ -48,7 +48,7 @@ class Window:
         return np.maximum(size, 1e-3 * max(size.max(), 1e-9))
 
     def fitted(self, width, height, margin=0.025):
-        """(xlim, ylim) with the aspect width:height around the rectangle."""
+        """(xlim, ylim) around the rectangle, with the aspect ratio width:height."""
         scale = (1 + 2 * margin) * max(self.size[0] / width, self.size[1] / height)
         middle, half = (self.low + self.high) / 2, scale * np.array([width, height]) / 2
         return [(middle[i] - half[i], middle[i] + half[i]) for i in range(2)]

@@ -1,4 +1,4 @@
-"""Building blocks of curves over time: panels below each other, lines with names at their ends."""
+"""Building blocks of curves over time: stacked panels, lines labelled at their ends."""
 import numpy as np
 
 from .style import FAINT, pyplot
@@ -8,7 +8,7 @@ COLOURS = ("#2f5fb3", "#d1622b", "#2e8b57", "#8e44ad", "#b8860b", "#c0392b", "#3
 
 
 def panels(heights, width=8.0, right=1.35, sharex=True):
-    """Figure and axes, by default with one time axis; `heights` in inches."""
+    """A figure and its axes, one above the other, which share the time axis by default. `heights` in inches."""
     gap = 0.34 if sharex else 0.75
     height = sum(heights) + 0.62 + gap * len(heights)
     figure, axes = pyplot.subplots(len(heights), 1, sharex=sharex, squeeze=False, figsize=(width, height),
@@ -19,8 +19,8 @@ def panels(heights, width=8.0, right=1.35, sharex=True):
 
 
 def time_axis(axes, times, unit, name="t", start=None):
-    """Sets limits (from `start` or the first time) and label; returns the times, or load factors, in the unit of the
-    axis."""
+    """Sets the label and the limits of a time axis, which starts at `start` or the first time. Returns the times, or
+    load factors, in the unit of the axis."""
     factor, unit = prefix(unit, np.nanmax(np.abs(times)))
     scaled = times / factor
     label = "time" if name == "t" else name.replace("_", " ")
@@ -37,9 +37,9 @@ def title(axes, text, note=""):
 
 
 def spread(heights, gap):
-    """Positions at least `gap` apart, in the order of `heights` and as near to them as possible."""
+    """Positions at least `gap` apart, in the order of `heights` and as close to them as possible."""
     order = np.argsort(heights, kind="stable")
-    groups = []  # [sum of (height - its offset in the group), members]
+    groups = []  # [sum over the members of (height - rank * gap), number of members]
     for k, height in enumerate(np.asarray(heights, float)[order]):
         groups.append([height - k * gap, 1])
         while len(groups) > 1 and groups[-2][0] / groups[-2][1] > groups[-1][0] / groups[-1][1]:
@@ -53,8 +53,8 @@ def spread(heights, gap):
 
 
 def label_ends(axes, curves):
-    """`curves`: (last value, name, colour), names right of the axes, moved apart where they
-    would overlap; curves without a name get none."""
+    """Writes the names of curves to the right of the axes, moved apart where they would overlap. `curves`: (last value,
+    name, colour); curves without a name get no label."""
     curves = [curve for curve in curves if curve[1]]
     if not curves:
         return
@@ -69,7 +69,7 @@ def label_ends(axes, curves):
 
 
 def draw_lines(axes, times, columns, styles=None, name=lambda column: column.name):
-    """Columns of one unit into one panel, in a common SI prefix; returns the unit's text."""
+    """Draws columns of the same unit into one panel, with a common SI prefix. Returns the text of the unit."""
     largest = max((np.nanmax(np.abs(c.values), initial=0.0) for c in columns), default=0.0)
     factor, unit = prefix(columns[0].unit, largest)
     ends = []

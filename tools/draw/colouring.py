@@ -1,14 +1,14 @@
-"""From values to colours, with one range for all frames of a picture."""
+"""Maps values to colours, with one range for all frames of a picture."""
 import matplotlib
 import numpy as np
 from matplotlib.colors import ListedColormap, Normalize
 
 from .units import prefix
 
-# Paul Tol, "bright" and "muted" qualitative schemes (personal.sron.nl/~pault), lightest last.
+# From Paul Tol's qualitative schemes "bright" and "muted" (personal.sron.nl/~pault).
 CATEGORIES = ("#4477AA", "#EE8866", "#228833", "#CCBB44", "#AA3377", "#66CCEE", "#BBBBBB", "#882255", "#44AA99")
 NOT_A_NUMBER = "#E6007E"
-FEW_BEYOND = 0.4  # per cent of the values of a peaked field, at either end, that its colour range leaves out
+FEW_BEYOND = 0.4  # percentage of a peaked field's values that the colour range leaves out at each end
 
 
 def _cut(name, low, high):
@@ -19,7 +19,8 @@ SEQUENTIAL, DIVERGING = _cut("viridis", 0.06, 1.0), _cut("RdBu_r", 0.06, 0.94)
 
 
 class Colouring:
-    """Map and range; `below`, `above`, `has_nan` say what the range leaves out."""
+    """Colour map and range. `below`, `above`: whether values lie outside the range; `has_nan`: whether some are not
+    numbers."""
 
     def __init__(self, quantity, samples, limits=None):
         finite = np.concatenate([s[np.isfinite(s)] for s in samples])
@@ -56,7 +57,7 @@ class Colouring:
         return table[np.nan_to_num(values).round().astype(int) % len(CATEGORIES)]
 
     def samples(self, count):
-        """RGB (k,3): at most about `count` colours that stand for the whole map."""
+        """RGB (k,3): at most about `count` colours that represent the map."""
         if self.categories is None:
             return np.vstack([self.map(np.linspace(0, 1, count))[:, :3], self.map.get_bad()[None, :3]])
         return self(self.categories.astype(float))

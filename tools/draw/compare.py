@@ -1,4 +1,4 @@
-"""Curves of several results over each other, and how far each is from the first."""
+"""Curves of several results in the same plots, and their differences from the first."""
 import numpy as np
 from matplotlib.lines import Line2D
 
@@ -11,12 +11,12 @@ from .units import prefix
 
 FILES = ("probes.csv", "energy.csv")
 STYLES = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (5, 2, 1, 2)))
-# The first is a broad band, on which the others show where they agree with it.
+# The first result is drawn as a broad band, so that the others stay visible where they coincide with it.
 LOOKS = [{"lw": 3.6, "alpha": 0.35, "ls": STYLES[0]}] + [{"lw": 1.2, "ls": style} for style in STYLES[1:]]
 
 
 def _groups(table, leave_out=("balance",)):
-    """Columns of one vector, or energies, that belong to one panel."""
+    """Groups columns by panel: components of a vector, or energies."""
     groups = {}
     for column in table.others():
         if column.name in leave_out:
@@ -27,8 +27,8 @@ def _groups(table, leave_out=("balance",)):
 
 
 def _difference(tables, other, names):
-    """The largest distance of `other` from the first, at the first's abscissae that both have, over the first's
-    largest magnitude."""
+    """The largest distance of table `other` from the first table, relative to the first's largest magnitude. Evaluated
+    at the first's times within the span of the other."""
     first, second = tables[0], tables[other]
     shared = (first.axis.values >= second.axis.values[0]) & (first.axis.values <= second.axis.values[-1])
     if not shared.any():
@@ -43,7 +43,7 @@ def _draw_file(tables, labels, path):
     groups = {key: [n for n in names if all(n in t for t in tables)] for key, names in _groups(tables[0]).items()}
     groups = {key: names for key, names in groups.items() if names}
     if not groups:
-        raise DrawError(f"{tables[0].path}: no column that all results have")
+        raise DrawError(f"{tables[0].path}: the results have no common column")
     figure, axes = panels([2.2] * len(groups), right=1.9)
     time_axis(axes[-1], np.concatenate([t.axis.values for t in tables]), tables[0].axis.unit, tables[0].axis.name)
     factor = prefix(tables[0].axis.unit, max(np.abs(t.axis.values).max() for t in tables))[0]
@@ -65,17 +65,17 @@ def _draw_file(tables, labels, path):
 
 
 def draw_comparison(names, out):
-    """A picture for each table that all of the results have; `out` is a folder."""
+    """Draws a picture for each table that all results have into the folder `out`; yields the paths."""
     if not 2 <= len(names) <= len(STYLES):
-        raise DrawError(f"compare: give 2 to {len(STYLES)} results, found {len(names)}")
+        raise DrawError(f"compare: expected 2 to {len(STYLES)} results, found {len(names)}")
     folders = [result_folder(name) for name in names]
     drawn = 0
     for file in FILES:
         if all((folder / file).is_file() for folder in folders):
             tables = [Table(folder / file) for folder in folders]
             if len({t.axis.name for t in tables}) > 1:
-                raise DrawError(f"{file}: a static analysis has nothing to be compared with in a dynamic one")
+                raise DrawError(f"{file}: static and dynamic analyses cannot be compared")
             yield _draw_file(tables, names, out / f"compare_{file.removesuffix('.csv')}.png")
             drawn += 1
     if not drawn:
-        raise DrawError(f"compare: none of {', '.join(FILES)} is in all of {', '.join(names)}")
+        raise DrawError(f"compare: none of the files {', '.join(FILES)} is in all of {', '.join(names)}")

@@ -29,8 +29,8 @@ def _stored_total(table):
 
 
 def relative_drift(table):
-    """The largest change of the balance by the largest kinetic or elastic energy, as the run's summary has it: both from
-    run.json, where the run looked at more states than it wrote; else from the table."""
+    """The largest change of the energy balance, relative to the largest kinetic or elastic energy. Taken from run.json,
+    as in the run's summary, because the run evaluated more states than it wrote; without run.json, from the table."""
     try:
         energy = json.loads((table.path.parent / "run.json").read_text(encoding="utf-8"))["energy"]
         drift, scale = float(energy["balance_drift"]), float(energy["scale"])
@@ -41,7 +41,7 @@ def relative_drift(table):
 
 
 def draw_energy(table, path):
-    """Energies that are not zero throughout; the balance, an error, has its own scale."""
+    """Draws the energies that are not always zero. The error of the balance has its own scale."""
     energies = [c for c in table.others() if c.name != "balance"] + _stored_total(table)
     if not energies:
         energies = table.others()
@@ -82,7 +82,7 @@ def _draw_steps(axes, times, table):
 
 
 def draw_steps(table, path):
-    """`rejected` counts the attempts that failed before the step of its row was accepted."""
+    """Draws step sizes, orders and Newton iterations. The column `rejected` counts failed attempts before a step."""
     effort = "newton_iterations" in table
     figure, axes = panels([3.0, 1.1] if effort else [3.0])
     t = table.axis
@@ -100,7 +100,7 @@ def draw_steps(table, path):
 
 
 def _by_vector(columns):
-    """Columns whose names differ only in the last part (.x, .y, .z) belong to one panel."""
+    """Groups columns by panel: those whose names differ only in the last part (.x, .y, .z)."""
     groups = {}
     for column in columns:
         groups.setdefault((column.name.rpartition(".")[0] or column.name, column.unit), []).append(column)
@@ -108,7 +108,7 @@ def _by_vector(columns):
 
 
 def draw_components(table, path):
-    """Probes or momentum: one panel per vector, one line per component."""
+    """Draws probes or momentum: one panel per vector, one line per component."""
     groups = _by_vector(table.others())
     longest = max(len(c.name.rpartition(".")[2]) for c in table.others())
     figure, axes = panels([1.7 if len(groups) > 1 else 3.0] * len(groups), right=0.45 + 0.08 * longest)
@@ -123,14 +123,14 @@ def draw_components(table, path):
 
 CURVES = {"energy": draw_energy, "steps": draw_steps, "probes": draw_components, "momentum": draw_components}
 
-MOTION = ("energy", "steps", "momentum")  # what only a motion has
+MOTION = ("energy", "steps", "momentum")  # files of motions only
 INSTEAD = {"static": "draw the load path (draw load), its probes (draw probes) or a frame (draw frame)",
            "buckling": "draw its shapes (draw modes)"}
 
 
 def draw_curve(kind, folder, path):
-    """The curve `kind` from folder/kind.csv."""
+    """Draws the curve `kind` from FOLDER/KIND.csv."""
     found = analysis(folder)
     if kind in MOTION and found in INSTEAD and not (folder / f"{kind}.csv").is_file():
-        raise DrawError(f"{folder}: a {found} analysis has no motion, so there is no {kind} over time; {INSTEAD[found]}")
+        raise DrawError(f"{folder}: no {kind} over time: a {found} analysis has no motion; {INSTEAD[found]}")
     return CURVES[kind](Table(folder / f"{kind}.csv"), path)

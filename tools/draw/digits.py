@@ -1,12 +1,12 @@
-"""Numbers with as many digits as are known of them, as lib/core/digits.h has it."""
+"""Numbers rounded to the digits that are known, like lib/core/number_format.h."""
 import math
 
 FEWEST = 2
 
 
 def known_digits(value, error=math.nan, most=7):
-    """A value of which a share `error` may be wrong: with the digits that the error does not touch and one more, at least
-    two and at most `most`; 324.487 with an error of 0.3 is '320'. With `most` where the error is 0 or not known."""
+    """The value with the digits that exceed the relative `error`, and one more: 324.487 with an error of 0.3 is '320'.
+    At least 2 digits and at most `most`, which are shown if the error is 0 or unknown."""
     if not math.isfinite(error) or error == 0:
         return f"{value:.{most}g}"
     digits = min(max(math.ceil(-math.log10(abs(error))) + 1, FEWEST), most)

@@ -1,13 +1,13 @@
-"""The one error that is the user's to solve, and the sentence that helps to solve it."""
+"""Errors that the user can correct."""
 import difflib
 
 
 class DrawError(Exception):
-    """One line for stderr: what was found, where, and what would be right."""
+    """One line for stderr: what was found, where, and what is expected."""
 
 
 def unknown(kind, name, known):
-    """DrawError for a name that is not among `known`, with the nearest one."""
+    """DrawError for an unknown name, suggesting the nearest of `known`."""
     known = list(known)
     lowered = {k.lower(): k for k in known}
     near = difflib.get_close_matches(name.lower(), lowered, n=1, cutoff=0.5)

@@ -1,4 +1,4 @@
-"""Material axis 1 as short strokes on the surface: along the grain strokes, on end grain dots."""
+"""Material axis 1 as short strokes on the surface, or as dots on end grain."""
 import numpy as np
 
 from .body import INK
@@ -8,13 +8,13 @@ from .surface import area_vectors, unit
 
 FIELD = "material_axis_1"
 SPACING = 0.115  # inches on the page
-GRAZING = 0.18  # cosine; on faces seen more flatly strokes would run into each other
+GRAZING = 0.18  # cosine between a face's normal and the line of sight, below which it has no strokes
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 PALE = np.array([0.96, 0.96, 0.94])
 
 
 class Grain:
-    """Where strokes sit is chosen once in the rest shape, so that they travel with the material."""
+    """Strokes are placed once in the rest shape and move with the material."""
 
     def __init__(self, surface, rest, spacing):
         """`spacing` of the strokes in m."""
@@ -25,8 +25,8 @@ class Grain:
         self.face, self.weights = thinned // len(centres), centres[thinned % len(centres)]
 
     def _thinned(self, places):
-        """At most one place per box of the spacing, for several shifts of the boxes so that few places touch;
-        in a fixed shuffled order so that no rows appear."""
+        """Indices of places, at most one in each box of the size `spacing`. Repeated for several shifts of the boxes,
+        so that few strokes touch. The order is shuffled, always in the same way, so that no rows appear."""
         random = np.random.default_rng(1)
         kept = random.permutation(len(places))
         for shift in random.random((5, 3)):
@@ -35,7 +35,7 @@ class Grain:
         return kept
 
     def add(self, paint, frame, points, values, colouring, camera):
-        """`values` (f,3) at the corners, coloured by `colouring`, are what the strokes must stand out from."""
+        """Adds strokes that stand out from the colours of `values` (f,3), which are given at the faces' corners."""
         if FIELD not in frame.cell_fields:
             raise unknown("field", FIELD, [*frame.node_fields, *frame.cell_fields])
         seen = self._well_seen(points, camera)[self.face]
@@ -43,7 +43,7 @@ class Grain:
         corners = points[self.surface.faces[face]]
         place = np.einsum("ik,ikx->ix", weights, corners)
         longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
-        depth = camera.depth(place) + self.spacing + longest  # above the faces it spans and their edges
+        depth = camera.depth(place) + self.spacing + longest  # in front of the faces it spans and their edges
         behind = colouring(np.einsum("ik,ik->i", weights, values[face]))
         ink = np.where((behind @ LUMINANCE < 0.5)[:, None], PALE, INK)
         ends = self.ends(frame, points)[:, seen]
@@ -66,7 +66,7 @@ class Grain:
         return camera.depth(normal) > GRAZING
 
     def _reach(self, face, weights, corners, step):
-        """Part of `step`, at most 1, that stays on the near side of the face's sharp edges."""
+        """The fraction of `step`, at most 1, that does not cross a sharp edge of the face."""
         edges = corners[:, 1:] - corners[:, :1]
         gram = np.einsum("iax,ibx->iab", edges, edges)
         side = np.einsum("iax,ix->ia", edges, step)

@@ -31,7 +31,7 @@ def _displacements(folder):
 
 
 def _panels_of(columns):
-    """A panel per probe: name and columns."""
+    """(name, columns) of each probe."""
     groups = {}
     for column in columns:
         probe, _, component = column.name.rpartition(".")
@@ -42,13 +42,13 @@ def _panels_of(columns):
 
 
 def _that_move(lines):
-    """Without components that are round-off, or next to nothing, beside the others."""
+    """The lines except those that are negligible relative to the largest."""
     largest = max(abs(column.values).max() for _, column in lines)
     return [(name, column) for name, column in lines if abs(column.values).max() >= 1e-3 * largest]
 
 
 def _critical(folder):
-    """Critical points as (kind, load factor), and whether the path was left at one of them by a jump."""
+    """Critical points as (kind, load factor), and whether the path jumped at one of them."""
     try:
         record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     except (OSError, json.JSONDecodeError):
@@ -58,13 +58,13 @@ def _critical(folder):
 
 
 def _jumps(factors, critical, jumped):
-    """The steps, by the index of their start, that lead from one path to another."""
+    """Indices at which the steps start that jump to another path."""
     levels = [factor for kind, factor in critical if kind != "sharp turn"] if jumped else []
     return [i for i in range(len(factors) - 1) if any(factors[i] < level <= factors[i + 1] for level in levels)]
 
 
 def _plot_path(panel, x, factors, jumps, colour):
-    """The path, with a gap bridged by dots where the body jumped."""
+    """Draws the path, dotted where the body jumped."""
     after = [i + 1 for i in jumps]
     panel.plot(np.insert(x, after, np.nan), np.insert(factors, after, np.nan), marker="o", ms=3, lw=1.3, color=colour)
     for i in jumps:
@@ -72,10 +72,10 @@ def _plot_path(panel, x, factors, jumps, colour):
 
 
 def _require_static(folder):
-    """A run without a run.json is told by its tables."""
+    """Raises DrawError for a motion. Without run.json, the tables show whether it is one."""
     kind = analysis(folder)
     if (folder / "run.json").is_file() and kind != "static":
-        raise DrawError(f"{folder}: not a static analysis, so there is no load path; "
+        raise DrawError(f"{folder}: no load path: not a static analysis; "
                         + ("draw its shapes (draw modes)" if kind == "buckling" else
                            "draw its probes (draw probes) or energies (draw energy) over time"))
 

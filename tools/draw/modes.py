@@ -1,4 +1,4 @@
-"""Natural modes or buckling shapes as small multiples: enlarged to be seen, over the outline of the body."""
+"""Natural modes or buckling shapes, magnified, as small pictures over the outline of the body."""
 import csv
 import math
 from dataclasses import replace
@@ -13,13 +13,13 @@ from .picture import draw_strip
 from .scene import Scene, PictureSpec
 from .series import Series
 
-FAINT = 0.02  # of the largest displacement: a part of one sign that nowhere moves so far has no nodal line around it
-LARGEST = 0.12  # displacement in the picture, of the body's largest extent
-MOST_DIGITS = 4  # of a label
+FAINT = 0.02  # fraction of the largest displacement: a part of one sign that moves less has no nodal line around it
+LARGEST = 0.12  # largest displacement in the picture, as a fraction of the body's largest extent
+MOST_DIGITS = 4  # largest number of digits in a label
 
 
 class Shapes(Series):
-    """modes.pvd as a series over the numbers of the modes; shapes stand where displacements are looked for."""
+    """modes.pvd as a Series over mode numbers; shapes take the place of displacements."""
 
     def __init__(self, name):
         super().__init__(name, "modes.pvd")
@@ -27,7 +27,7 @@ class Shapes(Series):
     def frame(self, index):
         frame = super().frame(index)
         if "shape" not in frame.node_fields:
-            raise DrawError(f"{self.paths[index]}: has no field 'shape'; did `orthodyn modes` write it?")
+            raise DrawError(f"{self.paths[index]}: has no field 'shape'; is it a file of `orthodyn modes`?")
         shape = frame.node_fields["shape"]
         swing = _along_largest(shape)[:, None]
         return replace(frame, points=frame.points + frame.node_fields.get("displacement", 0),
@@ -35,19 +35,20 @@ class Shapes(Series):
 
 
 def _along_largest(shape):
-    """With its sign, the part of (n,3) along the direction in which most of it moves; the largest is 1."""
+    """The signed component of (n,3) along the main direction of motion, scaled to a maximum of 1."""
     along = shape @ np.linalg.eigh(shape.T @ shape)[1][:, -1]
     return along / (along[np.argmax(abs(along))] or 1)
 
 
 def faint_nodes(faces, value):
-    """(n,): of a part of the surface that has one sign and nowhere FAINT of the largest value, as arises from round-off and
-    from the mesh where a body is held. A nodal line between two parts that move is there to its end."""
+    """(n,): whether a node belongs to a part of the surface on which `value` has one sign and stays below FAINT times
+    the largest value. Round-off and the mesh cause such parts near supports; they get no nodal line. Nodal lines
+    between two parts that move are drawn completely."""
     a, b = faces.ravel(), np.roll(faces, 1, axis=1).ravel()
     same = value[a] * value[b] > 0
     a, b = a[same], b[same]
     part, before = np.arange(len(value)), None
-    while before is None or (part != before).any():  # each part gets the least number of its nodes
+    while before is None or (part != before).any():  # each part gets its smallest node number
         before, least = part, np.minimum(part[a], part[b])
         part = part.copy()
         np.minimum.at(part, before[a], least)
@@ -59,10 +60,10 @@ def faint_nodes(faces, value):
 
 
 class Picture(Scene):
-    note = ""  # how far a shape is enlarged means nothing
+    note = ""  # no magnification is stated, because the size of a shape is arbitrary
 
     def add_lines(self, paint, points, values):
-        """Nodal lines: where the corners of faces that are seen have values of both signs."""
+        """Adds nodal lines: on visible faces whose corners have values of both signs."""
         flat = self.camera.flat(points)
         faces, swing = self.surface.faces, np.zeros(len(points))
         swing[faces] = values
@@ -92,13 +93,13 @@ def factor_label(factor, error=math.nan):
     return f"load factor {known_digits(factor, error, MOST_DIGITS)}"
 
 
-# What tells a mode from others, its column, its label, and the command that writes it.
+# For each kind of mode: file, column of the value, function that makes the label, command that writes the file.
 KINDS = (("modes.csv", "frequency [Hz]", frequency_label, "orthodyn modes"),
          ("buckling.csv", "load_factor", factor_label, "orthodyn run"))
 
 
 def read_modes(folder):
-    """The figure of each mode, and its label with as many digits as the mesh lets be known."""
+    """The values and the labels of all modes. A label has the digits that exceed the mesh error."""
     for name, column, label, command in KINDS:
         path = Path(folder) / name
         if not path.exists():
@@ -108,24 +109,24 @@ def read_modes(folder):
                 rows = [(float(row[column]), float(row.get("mesh_error") or "nan")) for row in csv.DictReader(file)]
                 return [figure for figure, _ in rows], [label(*row) for row in rows]
         except (KeyError, TypeError, ValueError) as error:
-            raise DrawError(f"{path}: not readable as what `{command}` writes ({error})") from None
-    raise DrawError(f"{folder}: no modes.csv of `orthodyn modes` and no buckling.csv of a buckling analysis")
+            raise DrawError(f"{path}: not readable as a table of `{command}` ({error})") from None
+    raise DrawError(f"{folder}: neither modes.csv (`orthodyn modes`) nor buckling.csv (analysis: buckling)")
 
 
 def is_of_modes(folder):
-    """Whether its shapes vibrate; those of buckling do not."""
+    """Whether the shapes are vibration modes, not buckling shapes."""
     return (Path(folder) / "modes.csv").is_file()
 
 
 def _read_all(folder, shapes):
     figures, labels = read_modes(folder)
     if len(figures) != len(shapes):
-        raise DrawError(f"{folder}: the table and modes.pvd do not belong together; compute them again")
+        raise DrawError(f"{folder}: the table and modes.pvd have different modes; compute them again")
     return figures, labels
 
 
 def labelled_modes(folder, shapes):
-    """'3: 12.5 Hz' of each."""
+    """The label of each shape: '3: 12.5 Hz'."""
     _, labels = _read_all(folder, shapes)
     return [f"{k + 1}: {label}" for k, label in enumerate(labels)]
 
@@ -135,7 +136,7 @@ def draw_modes(folder, path, count, view, up):
     figures, labels = _read_all(folder, shapes)
     chosen = [k for k in range(len(shapes)) if figures[k] != 0][:count]
     if not chosen:
-        raise DrawError(f"{folder}: all {len(figures)} modes are rigid; ask for more with -n")
+        raise DrawError(f"{folder}: all {len(figures)} modes are rigid; compute more with -n")
     scale = LARGEST * float(np.ptp(shapes.frame(chosen[0]).points, axis=0).max())
     spec = PictureSpec(color="swing", view=view, up=up, scale=scale, ghost=True, limits=(-1, 1))
     scene = Picture(shapes, chosen, spec)

@@ -7,11 +7,11 @@ from . import annotations
 from .style import DPI, pyplot, save
 
 TOP, BOTTOM, SIDE = 0.42, 0.78, 0.22  # inches around the body
-BUDGET = 14000  # small triangles on one page
+BUDGET = 14000  # largest number of small triangles on a page
 
 
 def _page(scene, columns, rows, panel, indices, budget=BUDGET):
-    """Figure with rows x columns panels of `panel` inches, each with its time above."""
+    """A figure with rows x columns panels of the size `panel` (inches), each with its time above."""
     width = columns * panel[0] + (columns + 1) * SIDE
     height = rows * (panel[1] + TOP) + BOTTOM
     figure = pyplot.figure(figsize=(width, height))
@@ -33,7 +33,7 @@ def _page(scene, columns, rows, panel, indices, budget=BUDGET):
 
 
 def _one_panel(aspect):
-    """Inches for a body with width / height = aspect: as large as fits 8 by about 6 inches."""
+    """Size (inches) of a panel with width / height = aspect: the largest that fits into 8 by about 6 inches."""
     width, tallest = 8 - 2 * SIDE, 5.6
     if width / aspect <= tallest:
         return width, max(width / aspect, 1.6)
@@ -41,7 +41,7 @@ def _one_panel(aspect):
 
 
 def frame_figure(scene, index, size=None, budget=BUDGET):
-    """`size` in inches; by default it follows the body."""
+    """A figure of one frame. `size` in inches; the default depends on the body's shape."""
     panel = _one_panel(scene.window.size[0] / scene.window.size[1])
     if size:
         panel = size[0] - 2 * SIDE, size[1] - TOP - BOTTOM
@@ -54,7 +54,7 @@ def draw_frame(scene, index, path, size_px=None):
 
 
 def strip_columns(count, aspect):
-    """Of the grid nearest to a 16:9 page with few empty places."""
+    """Number of columns for which the grid is close to a 16:9 page and has few empty panels."""
     def cost(columns):
         rows = math.ceil(count / columns)
         page = columns * aspect / rows
@@ -63,14 +63,14 @@ def strip_columns(count, aspect):
 
 
 def _panel(columns, aspect):
-    """Inches of one of several panels side by side."""
+    """Size (inches) of one of several panels side by side."""
     page_width = 10.0 if columns > 1 else 8.0
     width = (page_width - (columns + 1) * SIDE) / columns
     return width, float(np.clip(width / aspect, 0.5, 5.5))
 
 
 def draw_page(scene, columns, indices, path):
-    """Row after row of so many columns."""
+    """Draws the frames `indices` row by row in `columns` columns."""
     aspect = scene.window.size[0] / scene.window.size[1]
     return save(_page(scene, columns, math.ceil(len(indices) / columns), _panel(columns, aspect), indices), path)
 

@@ -1,4 +1,4 @@
-"""What colours the body: FIELD[.COMPONENT] of a frame as one number per node or cell."""
+"""The quantity that colours the body: FIELD[.COMPONENT], one number per node or cell."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,11 +10,11 @@ MATERIAL = ("11", "22", "33", "12", "23", "31")
 UNITS = {"displacement": "m", "difference": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "von_mises": "Pa",
          "principal_stress": "Pa", "mesh_error": "J/m^3"}
 AT_NODES = "nodal_"  # the same field, recovered at the nodes
-# Fields at the nodes that follow from the recovered ones.
+# Nodal fields computed from recovered stresses.
 FIGURES = ("von_mises", "principal_stress", "principal_strain", "max_stress", "tsai_wu", "hashin")
 TITLES = {"von_mises": "von Mises", "tsai_wu": "Tsai-Wu", "hashin": "Hashin", "det_f": "volume ratio det F",
           "difference": "difference from the reference", "swing": "shape, with its sign"}
-NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0, "swing": 0.0}  # the value of the undeformed body; every other signed field has 0
+NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0, "swing": 0.0}  # value of the undeformed body; 0 for other signed fields
 
 
 def von_mises(s):
@@ -40,7 +40,7 @@ def component_names(field, count):
 
 @dataclass(frozen=True)
 class Quantity:
-    """`kind` is a component's index, or "magnitude", "von_mises", "value"."""
+    """A quantity of a field. `kind` is the index of a component, or "magnitude", "von_mises" or "value"."""
     field: str
     kind: object
     label: str
@@ -52,7 +52,7 @@ class Quantity:
 
     @property
     def peaked(self):
-        """Whether a few values, at corners and clamped edges, may dwarf the others."""
+        """Whether a few values may far exceed the others, as stresses do at corners and clamped edges."""
         return not self.on_nodes or self.field.startswith(AT_NODES) or self.field in FIGURES
 
     @property
@@ -61,7 +61,7 @@ class Quantity:
 
     @property
     def neutral(self):
-        """Middle of a diverging colour map, None where a map from low to high fits."""
+        """The value in the middle of a diverging colour map; None for a sequential map."""
         if self.field in NEUTRAL:
             return NEUTRAL[self.field]
         return 0.0 if isinstance(self.kind, int) else None
@@ -79,7 +79,7 @@ class Quantity:
 
 
 def default_quantity(frame):
-    """The von Mises stress where frames carry stress, that at the nodes first; otherwise the displacement."""
+    """The von Mises stress if there are stresses, preferably nodal ones; else the displacement."""
     if AT_NODES + "stress" in frame.node_fields:
         return AT_NODES + "stress.von_mises"
     if "von_mises" in frame.node_fields:
@@ -88,7 +88,7 @@ def default_quantity(frame):
 
 
 def _split(text, fields):
-    """Field and component of `text`; names of fields may have dots themselves."""
+    """Field and component of `text`; field names may contain dots."""
     for name in sorted(fields, key=len, reverse=True):
         if text == name or text.startswith(name + "."):
             return name, text[len(name) + 1:]
@@ -96,7 +96,7 @@ def _split(text, fields):
 
 
 def find_quantity(text, frame):
-    """The Quantity that `text` names in `frame`; None stands for the default one."""
+    """The Quantity named by `text`; the default one for None."""
     fields = {**frame.cell_fields, **frame.node_fields}
     field, part = _split(text or default_quantity(frame), fields)
     on_nodes, count = field in frame.node_fields, fields[field].shape[1]

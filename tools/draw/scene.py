@@ -1,4 +1,4 @@
-"""What all frames of one picture share: surface, camera, colour range and window."""
+"""Surface, camera, colour range and window, shared by all frames of a picture."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,7 @@ from .units import load_factor_labels, time_labels
 
 @dataclass(frozen=True)
 class PictureSpec:
-    """What the user may choose about a picture of the body."""
+    """The user's options for a picture of the body."""
     color: str = None
     view: tuple = (-60.0, 20.0)
     up: str = "z"
@@ -27,7 +27,7 @@ class PictureSpec:
 
 
 class Scene:
-    """Made from all frames that will be drawn, so that they can be compared with each other."""
+    """What all frames of a picture share. Made from all frames to be drawn, so that they can be compared."""
 
     def __init__(self, series, indices, spec):
         self.series, self.spec, self.camera = series, spec, Camera(*spec.view, spec.up)
@@ -59,14 +59,14 @@ class Scene:
         moved = frame.node_fields.get("displacement")
         points = frame.points if moved is None else frame.points + self.spec.scale * moved
         if not np.isfinite(points).all():
-            raise DrawError("a displacement is not a finite number, the run has diverged; choose an earlier --time")
+            raise DrawError("a displacement is not finite: the run has diverged; choose an earlier --time")
         return points
 
     def corner_values(self, frame):
         return self.surface.corner_values(self.quantity.values(frame), self.quantity.on_nodes)
 
     def _grain_on(self, axes, rest):
-        """Made once: all panels of a picture are equally large."""
+        """The strokes of axis 1. They are computed once, because all panels have the same size."""
         if self._grain is None:
             inches = axes.get_position().width * axes.figure.get_size_inches()[0]
             self._grain = Grain(self.surface, rest, SPACING * np.ptp(axes.get_xlim()) / inches)
@@ -77,10 +77,10 @@ class Scene:
         return "" if self.spec.scale == 1 else f"deformation × {self.spec.scale:g}"
 
     def add_lines(self, paint, points, values):
-        """Lines on the body beside its edges: none."""
+        """Derived classes draw further lines on the body here."""
 
     def draw(self, axes, index, budget):
-        """The body at frame `index` into axes whose limits are set already."""
+        """Draws the body at frame `index`; the limits of the axes must be set."""
         frame = self._frame(index)
         points = self.positions(frame)
         values = self.corner_values(frame)

@@ -1,4 +1,4 @@
-"""A result folder as a series of frames in time, by its frames.pvd."""
+"""The frames of a result folder, listed in its frames.pvd."""
 import functools
 import json
 import xml.etree.ElementTree as ElementTree
@@ -19,7 +19,7 @@ def result_folder(name):
 
 
 def analysis(folder):
-    """'static' or 'buckling' by a folder's run.json; '' of a motion, and if in doubt."""
+    """'static' or 'buckling' from run.json; '' for a motion or without run.json."""
     try:
         return json.loads((folder / "run.json").read_text(encoding="utf-8"))["analysis"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -27,16 +27,16 @@ def analysis(folder):
 
 
 def is_static(folder):
-    """Whether the frames and rows of a folder are those of load factors; if in doubt, of times."""
+    """Whether the times of frames and rows are load factors."""
     return analysis(folder) == "static"
 
 
-MOST_LOOKS = 200
-SMALL, VISIBLE = 0.02, 0.1  # shares of the body: a motion below the one is not seen, one of the other is
+MOST_LOOKS = 200  # largest number of frames that are searched for the largest displacement
+SMALL, VISIBLE = 0.02, 0.1  # fractions of the body's extent: a motion below SMALL is magnified to VISIBLE
 
 
 class Series:
-    """Times and frames of one run; frames are read when asked for."""
+    """Times and frames of a run; frames are read on demand."""
 
     def __init__(self, name, collection="frames.pvd"):
         self.folder = result_folder(name)
@@ -71,7 +71,7 @@ class Series:
     @functools.cached_property
     def peak(self):
         """(frame, displacement in m, extent of the body in m) of the largest displacement; (None, 0, extent) without one.
-        Of very many frames every k-th is looked at."""
+        Searches at most MOST_LOOKS frames."""
         best, largest = None, 0.0
         for index in range(0, len(self), -(-len(self) // MOST_LOOKS)):
             moved = read_vtu(self.paths[index]).node_fields.get("displacement")
@@ -82,12 +82,12 @@ class Series:
 
     @property
     def visible_scale(self):
-        """By how much to enlarge a motion that could not be seen otherwise; None where it can be, and where there is none."""
+        """Magnification for a motion too small to see; None if it is visible or zero."""
         _, largest, extent = self.peak
         return units.round_length(VISIBLE * extent / largest) if 0 < largest < SMALL * extent else None
 
     def telling(self, count):
-        """As evenly(), but for the frame of the largest displacement in the place of the inner one nearest to it."""
+        """As evenly(), but the frame with the largest displacement replaces the nearest inner frame."""
         chosen, (peak, _, _) = self.evenly(count), self.peak
         if peak is None or peak in chosen or len(chosen) < 3:
             return chosen
@@ -95,7 +95,7 @@ class Series:
         return sorted({peak, *chosen} - {given_up})
 
     def asked_at(self, time):
-        """Frame nearest to a time that the user names, which must be within the frames' span."""
+        """Frame nearest to the user's `time`. Raises DrawError outside the span of the frames."""
         first, last = self.times[0], self.times[-1]
         room = 1e-6 * max(abs(first), abs(last))
         if not first - room <= time <= last + room:
@@ -105,12 +105,13 @@ class Series:
         return self.index_at(time)
 
     def checked_index(self, index):
-        """`index`, negative ones counted from the end."""
+        """The index of a frame from 0; a negative `index` counts from the end. Raises DrawError if it is out of
+        range."""
         if not -len(self) <= index < len(self):
             raise DrawError(f"{self.folder}: no frame {index}; there are {len(self)} frames (0 to {len(self) - 1})")
         return index % len(self)
 
     def evenly(self, count):
-        """At most `count` frames, evenly spaced in time, first and last among them."""
+        """At most `count` frames, evenly spaced in time, including the first and the last."""
         times = np.linspace(self.times[0], self.times[-1], max(count, 1)) if count > 1 else self.times[-1:]
         return sorted({self.index_at(t) for t in times})

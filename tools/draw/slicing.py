@@ -3,17 +3,18 @@ import numpy as np
 
 
 class Section:
-    """`triangles` (k,3,3) and the tets they lie in, `cell` (k,); `outline` (s,2,3) and its faces, `face` (s,)."""
+    """The cut of a body by a plane: `triangles` (k,3,3) and the tets in which they lie, `cell` (k,); the segments of
+    the `outline` (s,2,3) and the faces on which they lie, `face` (s,)."""
 
     def __init__(self, points, tets, surface, point, normal):
         normal = np.asarray(normal, float) / np.linalg.norm(normal)
-        # Off the plane by a little, so that no node lies on it.
+        # The plane is moved by a little, so that no node lies on it.
         side = (points - point) @ normal + 1e-7 * np.linalg.norm(np.ptp(points, axis=0))
         self.triangles, self.cell = _cut_tets(points, tets, side)
         self.outline, self.face = _cut_faces(points, surface.faces, side)
 
     def find(self, flat_triangles, places):
-        """For each of `places` (n,2) the number of a triangle (k,3,2) that holds it, or -1."""
+        """For each of `places` (n,2): the index of a triangle (k,3,2) that contains the place, or -1."""
         a, b, c = (flat_triangles[:, i] for i in range(3))
         found = np.full(len(places), -1)
         for start in range(0, len(places), 256):
@@ -29,7 +30,7 @@ def _turn(a, b, p):
 
 
 def _between(points, side, one, other):
-    """Where the edges from nodes `one` to `other` cross the plane."""
+    """The points at which the edges from nodes `one` to `other` cross the plane."""
     t = side[one] / (side[one] - side[other])
     return points[one] + t[..., None] * (points[other] - points[one])
 
@@ -56,7 +57,7 @@ def _cut_tets(points, tets, side):
 def _cut_faces(points, faces, side):
     above = side[faces] > 0
     count = above.sum(axis=1)
-    lone = np.where(count == 1, above.argmax(axis=1), (~above).argmax(axis=1))  # alone on its side
+    lone = np.where(count == 1, above.argmax(axis=1), (~above).argmax(axis=1))  # the node that is alone on its side
     cut = np.flatnonzero((count == 1) | (count == 2))
     one, two, three = (faces[cut, (lone[cut] + k) % 3] for k in range(3))
     return np.stack([_between(points, side, one, two), _between(points, side, one, three)], axis=1), cut

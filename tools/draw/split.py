@@ -1,11 +1,12 @@
-"""Splits triangles evenly, so that colours blend and hidden parts sort well even on coarse meshes."""
+"""Splits triangles evenly, so that on coarse meshes too colours blend and hidden parts are sorted correctly."""
 import functools
 
 import numpy as np
 
 
 class Split:
-    """Every edge in n parts: n * n small triangles, in barycentric coordinates of the large one."""
+    """A triangle whose edges are divided into n parts: n * n small triangles, in barycentric coordinates of the large
+    one."""
 
     def __init__(self, n):
         self.n = n
@@ -19,7 +20,7 @@ class Split:
         self.edges = self._edges()
 
     def _edges(self):
-        """Per edge of the large triangle the rows (small triangle, start node, end node)."""
+        """For each edge of the large triangle, the rows (small triangle, start node, end node)."""
         rows = []
         for e in range(3):
             off = self.nodes[:, (e + 2) % 3] < 1e-12
@@ -30,5 +31,5 @@ class Split:
 
 @functools.lru_cache(maxsize=None)
 def split_for(num_faces, budget):
-    """The finest Split with at most `budget` small triangles, n from 1 to 8."""
+    """The finest Split, with n from 1 to 8, for which all faces have at most `budget` small triangles together."""
     return Split(int(np.clip(np.sqrt(budget / max(num_faces, 1)), 1, 8)))

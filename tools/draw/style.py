@@ -1,4 +1,4 @@
-"""Fonts, colours and resolution that all pictures share."""
+"""Fonts, colours and resolution of all pictures."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -20,7 +20,7 @@ matplotlib.rcParams.update({
 
 
 def save(figure, path, dpi=DPI):
-    """Writes and closes the figure; returns the path."""
+    """Writes the figure to `path` and closes it. Returns the path."""
     figure.align_ylabels()
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=dpi)

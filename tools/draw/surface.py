@@ -1,17 +1,17 @@
 """The boundary of a tet mesh: its faces, its sharp edges, and normals smoothed between them."""
 import numpy as np
 
-CREASE_COSINE = np.cos(np.radians(35))  # a larger angle between two faces is an edge of the shape
+CREASE_COSINE = np.cos(np.radians(35))  # an edge is sharp if its faces meet at a larger angle (here 35 deg)
 OUTWARD = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # faces of a tet with positive volume
 
 
 def boundary_faces(points, tets):
-    """Faces that occur once, (f,3) counter-clockwise seen from outside, and their tets (f,)."""
+    """Boundary faces (f,3), counter-clockwise seen from outside, and their tets (f,)."""
     p = points[tets]
     volume = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0])
     tets = np.where((volume < 0)[:, None], tets[:, [0, 2, 1, 3]], tets)
     faces = tets[:, OUTWARD].reshape(-1, 3)
-    n = len(points)  # the key below fits 64 bits up to two million points
+    n = len(points)  # a face's key fits 64 bits for up to two million points
     a, b, c = np.sort(faces, axis=1).T.astype(np.int64)
     _, first, count = np.unique((a * n + b) * n + c, return_index=True, return_counts=True)
     once = np.sort(first[count == 1])
@@ -19,7 +19,7 @@ def boundary_faces(points, tets):
 
 
 def area_vectors(corners):
-    """Normals of triangles (f,3,3), as long as twice the area."""
+    """Normals of triangles (f,3,3), with twice the area as length."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
@@ -29,9 +29,9 @@ def unit(vectors):
 
 
 class Surface:
-    """Topology is fixed by the rest shape, so that edges and creases do not flicker in time.
+    """The boundary of a body. Sharp edges are those of the rest shape, so that edges do not flicker in time.
 
-    Edge e of a face joins its corners e and e + 1.
+    Edge e of a face joins the face's corners e and e + 1.
     """
 
     def __init__(self, points, tets):
@@ -39,7 +39,7 @@ class Surface:
         self.faces, self.cell = boundary_faces(points, tets)
         self.nodes = np.unique(self.faces)
         normal = unit(area_vectors(points[self.faces]))
-        self.neighbour = self._neighbours()  # (f,3), -1 where there is not exactly one
+        self.neighbour = self._neighbours()  # (f,3); -1 unless there is exactly one
         across = np.einsum("fk,fek->fe", normal, normal[self.neighbour])
         self.sharp = (self.neighbour < 0) | (across < CREASE_COSINE)
         self._pairs = self._smooth_pairs(normal)
@@ -55,7 +55,7 @@ class Surface:
         return neighbour.reshape(-1, 3)
 
     def _smooth_pairs(self, normal):
-        """(corner, face) pairs: the faces whose normals a corner averages."""
+        """Pairs (corner, face): the faces over which the normal at each corner is averaged."""
         node = self.faces.ravel()
         order = np.argsort(node, kind="stable")
         _, group, count = np.unique(node, return_inverse=True, return_counts=True)

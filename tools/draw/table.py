@@ -19,7 +19,7 @@ class Table:
     def __init__(self, path):
         self.path = path
         if not path.is_file():
-            raise DrawError(f"{path}: missing; does the scene's output ask for {path.stem}?")
+            raise DrawError(f"{path}: missing; add {path.stem} to the output of the scene")
         with path.open(newline="", encoding="utf-8", errors="replace") as stream:
             rows = [(number, row) for number, row in enumerate(csv.reader(stream), 1)
                     if row and not row[0].startswith("#")]
@@ -30,7 +30,7 @@ class Table:
         self.columns = {name: Column(name, unit, values[:, k]) for k, (name, unit) in enumerate(header)}
 
     def _numbers(self, rows, width):
-        """A run that was stopped may leave an unfinished last line, which is left out."""
+        """The rows as numbers. Leaves out an incomplete last row, as a stopped run may leave it."""
         if len(rows[-1][1]) < width and len(rows) > 1:
             rows = rows[:-1]
         numbers = []
@@ -57,5 +57,5 @@ class Table:
         return next(iter(self.columns.values()))
 
     def others(self):
-        """All columns but the first."""
+        """All columns except the first."""
         return list(self.columns.values())[1:]

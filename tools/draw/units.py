@@ -1,4 +1,4 @@
-"""Numbers for people: SI prefixes, round lengths, times that can be told apart."""
+"""Number formatting: SI prefixes, round lengths, distinct time labels."""
 import math
 
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -17,7 +17,7 @@ def prefix(unit, largest):
 
 
 def round_length(at_most):
-    """The largest 1, 2 or 5 times a power of ten that is not above `at_most`."""
+    """The largest number of the form 1, 2 or 5 times a power of ten that is not above `at_most`."""
     power = 10.0 ** math.floor(math.log10(at_most))
     return next(m * power for m in (5, 2, 1) if m * power <= at_most * 1.000001)
 
@@ -30,8 +30,8 @@ def length_label(length):
     return f"{length:.3g} m"
 
 
-def _figures(values):
-    """The values as text, with as few digits as show each of them well."""
+def _distinct(values):
+    """The values as text, with the fewest digits that keep them distinct."""
     distinct = sorted(set(values))
     if len(distinct) == 1:
         return [f"{v:.4g}" for v in values]
@@ -41,10 +41,10 @@ def _figures(values):
 
 
 def time_labels(times):
-    """Labels 't = 12.5 ms', in one unit."""
+    """Labels such as 't = 12.5 ms', all in one unit."""
     factor, unit = prefix("s", max(abs(t) for t in times))
-    return [f"t = {figure} {unit}" for figure in _figures([float(t / factor) for t in times])]
+    return [f"t = {figure} {unit}" for figure in _distinct([float(t / factor) for t in times])]
 
 
 def load_factor_labels(factors):
-    return [f"load factor {figure}" for figure in _figures([float(f) for f in factors])]
+    return [f"load factor {figure}" for figure in _distinct([float(f) for f in factors])]

@@ -1,7 +1,7 @@
 """Reads one VTU file of tetrahedra: VTK XML UnstructuredGrid, arrays ascii or appended raw.
 
-Layout of appended raw data: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html,
-an underscore, then per array one header integer (byte count) and the bytes.
+Appended raw data are an underscore, then for each array a header integer (the number of bytes) and the bytes:
+https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html.
 """
 import re
 import xml.etree.ElementTree as ElementTree
@@ -12,7 +12,7 @@ import numpy as np
 from .errors import DrawError
 
 NODES_OF = {10: 4, 24: 10}  # VTK_TETRA, VTK_QUADRATIC_TETRA
-# A quadratic tet is drawn as eight linear ones: at each corner one, and four around a diagonal of the rest.
+# A quadratic tet is drawn as eight linear ones: one at each corner, four around a diagonal of the inner octahedron.
 EIGHTHS = ((0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4))
 NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
               (("Float", "f", (32, 64)), ("Int", "i", (8, 16, 32, 64)), ("UInt", "u", (8, 16, 32, 64)))
@@ -21,8 +21,8 @@ NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
 
 @dataclass
 class Frame:
-    """Rest positions (n,3), linear tets (m,4), the fields by name, each (n or m, components), and the cells as they are in
-    the file (c, 4 or 10): one is drawn as `parts` tets beside each other, which share its values."""
+    """Rest positions (n,3); linear tets (m,4); fields by name, each (n or m, components); and the cells of the file (c,
+    4 or 10). A cell is drawn as `parts` linear tets, which share its values."""
     points: np.ndarray
     tets: np.ndarray
     node_fields: dict = field(default_factory=dict)
@@ -39,7 +39,7 @@ class Frame:
 
     @property
     def corners(self):
-        """The nodes at corners of cells."""
+        """Indices of the nodes at corners of cells."""
         return np.unique(self.cells[:, :4])
 
 
@@ -57,7 +57,7 @@ class _Arrays:
         return DrawError(f"{self.path}: {what}")
 
     def read(self, element, tuples):
-        """Values as (tuples, components); None stands for as many tuples as there are."""
+        """The values as (tuples, components). `tuples`: the number expected, or None for any number."""
         name, form = element.get("Name", "?"), element.get("format", "ascii")
         if element.get("type") not in NUMPY_TYPE:
             raise self.damaged(f"array '{name}' has the type {element.get('type')}, which is no number")
@@ -106,7 +106,7 @@ def _split_appended(path, content):
 
 
 def _tets(arrays, cells, count, num_points):
-    """Tets (m,4), and the cells that they are parts of."""
+    """The linear tets (m,4), and the cells of the file (c, 4 or 10), of which they are parts."""
     named = {a.get("Name"): a for a in cells}
     missing = {"connectivity", "offsets", "types"} - set(named)
     if missing:
@@ -126,7 +126,7 @@ def _tets(arrays, cells, count, num_points):
 
 
 def read_vtu(path):
-    """The Frame in `path`; DrawError when the file is missing, damaged or not made of tets."""
+    """The Frame in `path`. Raises DrawError if the file is missing or damaged or has cells other than tets."""
     try:
         content = path.read_bytes()
     except OSError as error:

@@ -1,4 +1,4 @@
-// A subcommand of `orthodyn`. Each has a file of its own, which declares it and registers it:
+// A subcommand of `orthodyn`. Each is declared and registered in its own file:
 //
 //   void declare(ConvertArguments& arguments, CommandOptions& options) {
 //     options.flag("--force", arguments.force, "Replace existing files.");
@@ -6,8 +6,8 @@
 //   int convert(const ConvertArguments& arguments) { ... return 0; }
 //   const CommandRegistration convert_command({.order = 80, .name = "convert", .sentence = "..."}, declare, convert);
 //
-// A command returns the exit code of the program: 0 done, 1 an expectation was missed, 2 the input is at fault, 3 it
-// could not go on, 130 interrupted. It may throw: main.cc turns ConfigError into 2 and all else into 3.
+// A command returns the exit code of the program: 0 done, 1 an expectation was missed, 2 input error, 3 computation
+// failed, 130 interrupted. Exceptions: main.cc turns ConfigError into 2 and all others into 3.
 #pragma once
 
 #include <functional>
@@ -20,23 +20,23 @@
 namespace orthodyn {
 
 struct CommandText {
-  int order = 0;  // in `orthodyn --help`, ascending
+  int order = 0;  // position in `orthodyn --help`, ascending
   std::string name, sentence;
-  std::string examples = {};  // a line each, for `orthodyn NAME --help`
-  bool hidden = false;        // called by other commands, not listed
-  bool on_ranks = false;      // may be one of several ranks, started by mpirun
+  std::string examples = {};  // lines of `orthodyn NAME --help`
+  bool hidden = false;        // called by other commands; not listed
+  bool on_ranks = false;      // may run on several MPI ranks
 };
 
 struct Command {
   CommandText text;
-  // Declares the options, and returns what runs the command once they are parsed.
+  // Declares the options; returns the function that runs the command after parsing.
   std::function<std::function<int()>(CommandOptions&)> declare;
 };
 
-// All that are registered, in their order.
+// All registered commands, sorted by `order`.
 std::vector<Command> commands();
 
-// To be a constant at namespace scope. `Arguments` holds what the options set, as it is where none is given.
+// Define a constant of this type at namespace scope. `Arguments` is default constructed, then set by the options.
 class CommandRegistration {
  public:
   template <class Arguments>

@@ -1,9 +1,11 @@
-// Joins commands and their options to CLI11; the only file that includes it, since that takes seconds to compile.
+// Registers commands and parses the command line with CLI11. Only this file includes CLI11, which takes seconds to
+// compile.
 #include "tools/orthodyn/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -14,6 +16,12 @@
 namespace orthodyn {
 
 namespace {
+
+// Constructed at first use, because the order of static initialisation between files is not defined.
+std::vector<Command>& registered() {
+  static std::vector<Command> all;
+  return all;
+}
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -29,8 +37,8 @@ Examples:
   orthodyn stability configs/stability/hard_cases.yaml
   orthodyn verify configs/cases
 
-Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go
-on (what was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
+Exit codes: 0 done, 1 an expectation was missed, 2 input error (nothing was written), 3 the run failed (results so far
+are kept) or all points of a study failed, 130 interrupted (results so far are kept).)";
 
 std::function<int()> add_command(CLI::App& program, const Command& command) {
   auto* app = program.add_subcommand(command.text.name, command.text.sentence)->fallthrough();  // for --plugin
@@ -47,7 +55,7 @@ std::vector<std::string> command_names() {
   return names;
 }
 
-// The first word that stands where a command should.
+// The first word, if it is not a command.
 std::optional<std::string> unknown_command(const CLI::App& program) {
   if (!program.get_subcommands().empty()) return {};
   for (const std::string& word : program.remaining())
@@ -55,7 +63,7 @@ std::optional<std::string> unknown_command(const CLI::App& program) {
   return {};
 }
 
-// "--n" of a command that has "-n".
+// A suggestion for an unknown option, such as "-n" for "--n".
 std::string nearest_option(const std::string& word, const CLI::App& command) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options()) {
@@ -66,7 +74,7 @@ std::string nearest_option(const std::string& word, const CLI::App& command) {
   return did_you_mean(word, known, ".");
 }
 
-// A word with dashes that the command does not know.
+// The message for the first unknown option, if any.
 std::optional<std::string> unknown_option(const CLI::App& program) {
   if (program.get_subcommands().empty()) return {};
   const CLI::App& command = *program.get_subcommands().front();
@@ -84,6 +92,14 @@ Answer answer_of(const CLI::App& program, const CLI::ParseError& e) {
 }
 
 }  // namespace
+
+std::vector<Command> commands() {
+  auto all = registered();
+  std::sort(all.begin(), all.end(), [](const Command& a, const Command& b) { return a.text.order < b.text.order; });
+  return all;
+}
+
+void CommandRegistration::add(Command command) { registered().push_back(std::move(command)); }
 
 CommandOption& CommandOption::required() { return option_.required(), *this; }
 
@@ -141,7 +157,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   program.require_subcommand(1);
   program.set_version_flag("--version", orthodyn_version());
   CommandOptions(program)
-      .repeated("--plugin", out.plugins, "A shared library with materials, terms, integrators or meshes of your own.")
+      .repeated("--plugin", out.plugins,
+                "Load a shared library with your own materials, terms, integrators or meshes (docs/extend.md).")
       .type("FILE.so")
       .one_each();
   std::map<std::string, std::function<int()>> runs;
@@ -155,7 +172,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (const auto word = unknown_command(program))
       out.answer = {2, "",
-                    fmt::format("error: there is no command '{}'{} Known: {}.\n", *word,
+                    fmt::format("error: unknown command '{}'{} Known: {}.\n", *word,
                                 did_you_mean(*word, command_names(), "."), join(command_names()))};
     else if (const auto sentence = unknown_option(program)) out.answer = {2, "", *sentence};
     else out.answer = answer_of(program, e);

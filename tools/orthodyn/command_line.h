@@ -1,4 +1,4 @@
-// The command line, parsed: which command it names, with its options set.
+// The parsed command line.
 #pragma once
 
 #include <functional>
@@ -8,18 +8,18 @@
 
 namespace orthodyn {
 
-// Where nothing is to be run: help (0), or what is wrong (2).
+// Text to print instead of running a command: help (exit code 0) or an error (2).
 struct Answer {
   int exit_code = 0;
-  std::string out, err;  // for the two streams
+  std::string out, err;  // for stdout and stderr
 };
 
 struct CommandLine {
   std::vector<std::string> plugins;  // shared libraries to load first
-  std::function<int()> run;          // the command
-  std::string name;                  // of it
+  std::function<int()> run;          // runs the command
+  std::string name;                  // name of the command
   bool on_ranks = false;             // CommandText::on_ranks
-  std::optional<Answer> answer;      // then nothing else counts
+  std::optional<Answer> answer;      // printed instead of running a command; empty if there is a command
 };
 
 CommandLine parse_command_line(int argc, char** argv);

@@ -1,5 +1,5 @@
-// How a command declares its options. Each is bound to a variable, which parsing sets and which must live until then.
-// A declaration that does not fit together (an unknown name in `excludes`) throws when the program starts.
+// Declares a command's options. Parsing stores the value of each option in a variable, which must live until then. A
+// declaration that names an unknown option (in `excludes` or `needs`) throws when the program starts.
 #pragma once
 
 #include <string>
@@ -12,23 +12,23 @@ class Option;
 
 namespace orthodyn {
 
-// What else holds of an option that was declared.
+// Further properties of a declared option.
 class CommandOption {
  public:
   CommandOption(CLI::App& command, CLI::Option& option) : command_(command), option_(option) {}
 
   CommandOption& required();
-  // What `--help` shows for the value: "FILE.yaml". Without it, "TEXT", "INT" or "FLOAT".
+  // Placeholder of the value in `--help`: "FILE.yaml". Default "TEXT", "INT" or "FLOAT".
   CommandOption& type(const std::string& name);
-  // Not together with, or only together with, an option that was declared before.
+  // Forbids this option together with `other`, or without it. `other`: name of an option declared before.
   CommandOption& excludes(const std::string& other);
   CommandOption& needs(const std::string& other);
   CommandOption& range(int least, int most);
-  // One of these words; the first if the option is given without a value.
+  // Allowed values; the first is used if the option is given without a value.
   CommandOption& choice(const std::vector<std::string>& words);
-  // `--help` shows the value that the variable has now.
+  // `--help` shows the variable's present value as the default.
   CommandOption& show_default();
-  // Of repeated(): what follows the first value is no value of it.
+  // For repeated(): takes one value each time the option is given.
   CommandOption& one_each();
 
  private:
@@ -40,13 +40,13 @@ class CommandOptions {
  public:
   explicit CommandOptions(CLI::App& command) : command_(command) {}
 
-  // A name without dashes is that of a positional argument. Value: std::string, int, double, or
-  // std::optional of std::string or std::size_t.
+  // A name without dashes declares a positional argument. Value: std::string, int, double, or std::optional of
+  // std::string, int or std::size_t.
   template <class Value>
   CommandOption value(const std::string& name, Value& value, const std::string& sentence = "");
-  // Several, each after its own `name`.
+  // May be given several times: --set A --set B.
   CommandOption repeated(const std::string& name, std::vector<std::string>& values, const std::string& sentence);
-  // Several in a row, without a name.
+  // Any number of positional arguments.
   CommandOption list(const std::string& name, std::vector<std::string>& values, const std::string& sentence);
   CommandOption flag(const std::string& name, bool& value, const std::string& sentence);
 

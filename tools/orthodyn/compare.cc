@@ -1,4 +1,4 @@
-// `orthodyn compare`: runs a comparison and has its report drawn.
+// `orthodyn compare`: runs a comparison of integrators and draws its report.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,10 +13,8 @@
 #include "lib/study/compare/measurement.h"
 #include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/failure_summary.h"
-#include "tools/orthodyn/progress_reporter.h"
 #include "tools/orthodyn/study_command.h"
-#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_messages.h"
 
 namespace orthodyn::study::compare {
 
@@ -27,7 +25,7 @@ namespace {
 std::string outcome_of(const MeasurementResult& result) {
   if (result.failure) return "failed: " + result.failure->reason;
   std::string text = "done";
-  if (result.timing) text = fmt::format("{:.3g} s", result.timing->wall.median);
+  if (result.wall) text = fmt::format("{:.3g} s", result.wall->median);
   if (result.kind == MeasurementResult::Kind::exact) text = "exact solution";
   if (result.errors && std::isfinite(result.errors->displacement.l2))
     text += fmt::format(", error {:.2g}", result.errors->displacement.l2);
@@ -44,7 +42,7 @@ void print_answers(const Json& table) {
   for (const auto& problem : table.at("problems")) {
     const Json& reference = problem.at("reference");
     if (reference.at("kind") == "computed" && !reference.at("checked").get<bool>())
-      fmt::print("the reference of {} could not be checked, so its error is unknown: no answers\n",
+      fmt::print("the reference of {} could not be checked: its error is unknown, so no times per error are given\n",
                  problem.at("label").get<std::string>());
   }
   for (const auto& answer : table.at("answers")) {
@@ -59,12 +57,12 @@ void print_answers(const Json& table) {
     }
     fmt::print("\n");
   }
-  for (const auto& front : table.at("fronts"))
+  for (const auto& front : table.at("pareto_fronts"))
     for (const auto& answer : front.at("answers"))
       fmt::print("{} {}\n", front.at("label").get<std::string>(), answer.at("words").get<std::string>());
 }
 
-// What failed beside the points, on which all errors hang.
+// Prints the failures of references, without which no errors are known.
 void print_failed_references(const ComparisonRun& run) {
   for (const auto& [group, reference] : run.references()) {
     const auto& failure = reference.check ? reference.check->failure : reference.result.failure;
@@ -74,7 +72,7 @@ void print_failed_references(const ComparisonRun& run) {
   }
 }
 
-// The scenes of the first point of each problem: methods have no slips of their own.
+// The scene of the first point of each problem, because input warnings do not depend on the method.
 std::vector<Config> scenes_of(const Design& design) {
   std::vector<Config> scenes;
   std::set<std::size_t> seen;
@@ -83,15 +81,15 @@ std::vector<Config> scenes_of(const Design& design) {
   return scenes;
 }
 
-// Slips of the scenes, each once; and that they have the quantities and the fields of frames, before hours of points
-// that do not.
-void look_at(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
+// Prints each input warning once. Called before any point is computed. Throws ConfigError if a scene lacks a quantity
+// or a field that the comparison wants.
+void check_scenes(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
   if (comparison.quantities.empty() && !comparison.frames) {
-    SlipTeller teller;
-    for (const Config& scene : scenes) teller.tell(scene);
+    InputWarningPrinter printer;
+    for (const Config& scene : scenes) printer.print(scene);
     return;
   }
-  std::set<std::string> warnings;  // told when all scenes are found to be right
+  std::set<std::string> warnings;  // printed once all scenes are valid
   for (const Config& scene : scenes) {
     const Setup setup = set_up(scene);
     followed_quantities(setup, comparison.quantities, {config.at("quantities").where()});
@@ -100,16 +98,18 @@ void look_at(const Comparison& comparison, const Config& config, const std::vect
   for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-// What `all` brings is left out where it cannot run on ranks, and what is named refused.
-Comparison on_ranks(Comparison comparison) {
+// Leaves out the integrators from `all` that cannot run on several ranks. Throws ConfigError for a named one.
+Comparison for_ranks(Comparison comparison) {
   std::vector<std::string> left_out;
   std::erase_if(comparison.integrators, [&](const IntegratorEntry& entry) {
     if (Registry<IntegratorChoice>::entries().at(entry.type).make()->runs_on_ranks()) return false;
-    if (!entry.by_all) entry.origin.fail("'" + entry.type + "' does not run on several ranks: remove it, or --ranks");
+    if (!entry.by_all)
+      entry.origin.fail("'" + entry.type + "' does not run on several ranks: remove this entry or --ranks");
     left_out.push_back(entry.type);
     return true;
   });
-  if (!left_out.empty()) fmt::print(stderr, "left out, for they do not run on several ranks: {}\n", join(left_out));
+  if (!left_out.empty())
+    fmt::print(stderr, "notice: left out, since they do not run on several ranks: {}\n", join(left_out));
   return comparison;
 }
 
@@ -117,19 +117,19 @@ void require_points_to_run_on_ranks(const Design& design) {
   for (const Point& point : design.points) {
     Config config = point_scene(design, point).resolving();
     Scene scene = read_scene(config);
-    settle_for_ranks(config, scene);
+    adapt_to_ranks(config, scene);
   }
 }
 
-// Where reference and points have one mesh its error is in none of theirs.
+// Warns of coarse meshes shared by reference and points, whose errors do not include the discretisation error.
 void warn_of_shared_meshes(const Json& table) {
   for (const Json& problem : table.at("problems")) {
     const Json& reference = problem.at("reference");
     const Json error = reference.value("shared_mesh_error", Json());
     if (!error.is_number() || !(error > kCoarseMesh)) continue;
     fmt::print(stderr,
-               "warning: {}: errors are those in time; the mesh puts reference and points off by about {:.2g} of the "
-               "elastic energy: a smaller error in time means little for the body itself\n",
+               "warning: {}: errors are time integration errors only; reference and points share a mesh error of about "
+               "{:.2g} of the elastic energy, so smaller time errors do not make results more accurate\n",
                problem.at("label").get<std::string>(), error.get<double>());
   }
 }
@@ -137,11 +137,11 @@ void warn_of_shared_meshes(const Json& table) {
 int compare(const StudyArguments& arguments) {
   require_ranks(arguments);
   const Config config = Config::from_file(arguments.file);
-  const Comparison comparison = arguments.ranks > 1 ? on_ranks(read_comparison(config)) : read_comparison(config);
+  const Comparison comparison = arguments.ranks > 1 ? for_ranks(read_comparison(config)) : read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
   if (arguments.ranks > 1) require_points_to_run_on_ranks(design);
-  look_at(comparison, config, scenes_of(design));
+  check_scenes(comparison, config, scenes_of(design));
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 
@@ -157,7 +157,7 @@ int compare(const StudyArguments& arguments) {
     write_file(folder / "compare.json", {to_text(table, 1)});
     write_file(folder / "compare.csv", {comparison_csv(table)});
   });
-  if (!complete) tell_of_interrupt("points", folder);
+  if (!complete) print_interrupted("points", folder);
   if (!arguments.quiet && !table.is_null()) print_answers(table);
   if (arguments.no_report || !table.is_null()) show_report(folder, arguments);
   if (!table.is_null()) warn_of_shared_meshes(table);
@@ -166,7 +166,7 @@ int compare(const StudyArguments& arguments) {
   for (const auto& [i, result] : run.results())
     failures.add(title(run.design(), run.design().points[i]), result.failure);
   failures.print();
-  tell_of_kept_limits(kept);
+  print_kept_failures(kept);
   return complete ? failures.exit_code() : 130;
 }
 
@@ -179,12 +179,11 @@ void declare_comparison(StudyArguments& arguments, CommandOptions& options) {
 const CommandRegistration compare_command(
     {.order = 40,
      .name = "compare",
-     .sentence =
-         "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run it again to continue.",
+     .sentence = "Compare integrators on scenes, error against time: report, CSV and JSON. Run it again to continue.",
      .examples = R"(
   orthodyn compare configs/comparisons/damped_beam.yaml
-  orthodyn compare configs/comparisons/space_and_time.yaml   meshes and methods: total error, and its front
-  orthodyn compare mine.yaml --retry           once more, with what failed)"},
+  orthodyn compare configs/comparisons/space_and_time.yaml   meshes and methods: total error and Pareto front
+  orthodyn compare mine.yaml --retry           also repeat what failed)"},
     declare_comparison, compare);
 
 }  // namespace

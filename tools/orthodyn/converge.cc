@@ -1,4 +1,4 @@
-// `orthodyn converge`: a scene on finer and finer meshes.
+// `orthodyn converge`: a scene on successively refined meshes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,14 +10,11 @@
 #include "lib/simulation/run/scene_file.h"
 #include "lib/simulation/run/several_ranks.h"
 #include "lib/study/converge/convergence_table.h"
-#include "lib/study/converge/convergence_text.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/failure_summary.h"
-#include "tools/orthodyn/progress_reporter.h"
 #include "tools/orthodyn/study_command.h"
-#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_messages.h"
 
 namespace orthodyn::study::converge {
 
@@ -32,22 +29,22 @@ struct ConvergeArguments : StudyArguments {
   std::string orders = "1,2";
 };
 
-std::vector<int> orders_of(const std::string& text) {
+std::vector<int> parse_orders(const std::string& text) {
   if (text == "1") return {1};
   if (text == "2") return {2};
   if (text == "1,2" || text == "2,1") return {1, 2};
   throw ConfigError(fmt::format("--order: expected 1, 2 or 1,2, found '{}'", text));
 }
 
-Convergence wanted_of(const ConvergeArguments& arguments) {
+Convergence convergence_from(const ConvergeArguments& arguments) {
   if (!(arguments.seconds > 0)) throw ConfigError("--seconds: must be positive");
   for (const auto& assignment : arguments.set)
     if (assignment.starts_with("mesh.order="))
-      throw ConfigError("--set " + assignment + ": is varied by this command; use --order");
+      throw ConfigError("--set " + assignment + ": the order is varied by this command; use --order");
   return {.file = arguments.file,
           .set = arguments.set,
           .levels = arguments.levels,
-          .orders = orders_of(arguments.orders),
+          .orders = parse_orders(arguments.orders),
           .quantities = arguments.quantities,
           .modes = arguments.modes,
           .limits = {.seconds = arguments.seconds},
@@ -64,20 +61,20 @@ std::string outcome_of(const EvaluationResult& result) {
 void require_meshes_to_run_on_ranks(const ConvergeArguments& arguments) {
   if (arguments.ranks == 1) return;
   if (arguments.modes > 0)
-    throw ConfigError("--modes: natural frequencies are computed by one process; remove --ranks");
+    throw ConfigError("--modes: natural frequencies are computed by one process only; remove --modes or --ranks");
   Config config = read_scene_file(arguments.file, {.set = arguments.set}).resolving();
   Scene scene = read_scene(config);
-  settle_for_ranks(config, scene);
+  adapt_to_ranks(config, scene);
 }
 
 int converge(const ConvergeArguments& arguments) {
   require_ranks(arguments);
   use_one_thread_each();
   require_meshes_to_run_on_ranks(arguments);
-  const Convergence wanted = wanted_of(arguments);
+  const Convergence wanted = convergence_from(arguments);
   const Design design = design_of(wanted);
   const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));
-  SlipTeller().tell(read_scene_file(wanted.file, {.set = wanted.set}));
+  InputWarningPrinter().print(read_scene_file(wanted.file, {.set = wanted.set}));
   const StudyFolder place(folder, "convergence", arguments.file);
   PointJobs factory(input_of(wanted, design), wanted.limits, folder, arguments.ranks);
   std::vector<Job> jobs;
@@ -103,44 +100,47 @@ int converge(const ConvergeArguments& arguments) {
     if (const auto found = results.find(job.folder); found != results.end())
       failures.add(job.title, found->second.failure);
   const Json table = write_table();
-  if (!complete) tell_of_interrupt("meshes", folder);
+  if (!complete) print_interrupted("meshes", folder);
   if (!arguments.quiet) fmt::print("{}\ntable   {}\n", convergence_text(table), (folder / "convergence.csv").string());
   show_report(folder, arguments);
   failures.print();
-  tell_of_kept_limits(kept);
+  print_kept_failures(kept);
   return complete ? failures.exit_code() : 130;
 }
 
 void declare(ConvergeArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"scene", "A scene in YAML.", "convergence", "convergence", "meshes"});
-  declare_jobs(arguments, options, "Meshes");
+  declare_jobs(arguments, options, "meshes");
   declare_ranks(arguments, options, "mesh");
   options.repeated("--set", arguments.set, "Change a value of the scene by its path, e.g. mesh.cells=[10,1,1].")
       .type("PATH=VALUE");
   options
       .value("--levels", arguments.levels,
-             "Meshes: the scene's own, and each of the others twice as fine as the one before.")
+             "Number of meshes: the scene's own, then each twice as fine as the one before.")
       .range(2, 8)
       .show_default();
-  options.value("--order", arguments.orders, "Linear elements, quadratic ones or both: 1, 2 or 1,2.").show_default();
+  options.value("--order", arguments.orders, "Element orders to compute: 1 (linear), 2 (quadratic) or 1,2.")
+      .show_default();
   options
       .repeated("--quantity", arguments.quantities,
-                "What to compute: tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: what the "
-                "scene expects, or how far its probes move.")
+                "Quantity to compute, e.g. tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: "
+                "the quantities under 'expect' in the scene, else the displacements of its probes.")
       .type("NAME");
-  options.value("--modes", arguments.modes, "Compute this many of the lowest natural frequencies.").range(0, 100);
-  options.value("--seconds", arguments.seconds, "Wall time that one mesh may take.").show_default();
+  options.value("--modes", arguments.modes, "Compute this many of the lowest natural frequencies instead of a motion.")
+      .range(0, 100);
+  options.value("--seconds", arguments.seconds, "Time limit of each mesh, in s of wall time.").show_default();
 }
 
-const CommandRegistration converge_command({.order = 55,
-                                            .name = "converge",
-                                            .sentence = "A scene on finer and finer meshes: errors in space, orders, "
-                                                        "limits, and what they cost. Run it again to continue.",
-                                            .examples = R"(
+const CommandRegistration converge_command(
+    {.order = 55,
+     .name = "converge",
+     .sentence = "Refine the mesh of a scene: errors in space, orders of convergence, extrapolated limits, run times. "
+                 "Run it again to continue.",
+     .examples = R"(
   orthodyn converge configs/scenes/shelf.yaml --set mesh.cells=[8,2,1] --levels 3
   orthodyn converge configs/scenes/cantilever.yaml --quantity "max of tip.displacement.z" --order 2
   orthodyn converge mine.yaml --modes 3        natural frequencies)"},
-                                           declare, converge);
+    declare, converge);
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// `orthodyn convert`: a mesh from one format to another.
+// `orthodyn convert`: converts a mesh to another file format.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct ConvertArguments {
 };
 
 int convert(const ConvertArguments& arguments) {
-  if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale {}: must be positive", arguments.scale));
+  if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale: must be positive, found {}", arguments.scale));
   mesh_format_to_write(arguments.out);
   LoadedMesh loaded = read_mesh(arguments.in);
   if (arguments.scale != 1) scale_mesh(loaded.mesh, arguments.scale, arguments.in);
@@ -33,17 +33,18 @@ int convert(const ConvertArguments& arguments) {
 
 void declare(ConvertArguments& arguments, CommandOptions& options) {
   options.value("in", arguments.in, "The mesh to read: " + known_mesh_endings() + ".").required().type("IN");
-  options.value("out", arguments.out, "The mesh to write; what its format cannot hold is reported.")
+  options.value("out", arguments.out, "The mesh to write. Data that its format cannot hold is reported.")
       .required()
       .type("OUT");
-  options.value("--scale", arguments.scale, "Multiplies coordinates: 0.001 from mm to m.").type("FACTOR");
+  options.value("--scale", arguments.scale, "Multiply coordinates by this factor, e.g. 0.001 for a mesh in mm.")
+      .type("FACTOR");
   options.flag("--force", arguments.force, "Replace existing files.");
 }
 
 const CommandRegistration convert_command(
     {.order = 80,
      .name = "convert",
-     .sentence = "Convert a mesh from one format to another, by the endings of the file names.",
+     .sentence = "Convert a mesh to another format, chosen by the ending of the file name.",
      .examples = R"(
   orthodyn convert part.msh part.vtu
   orthodyn convert part.inp part.msh --scale 0.001)"},

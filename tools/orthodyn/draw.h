@@ -1,21 +1,20 @@
-// The drawing tool, which is no part of this program but stands beside it.
+// Runs the drawing tool (tools/draw). If it is missing or fails, a warning says where its messages are.
 #pragma once
 
 #include <filesystem>
 
 namespace orthodyn {
 
-// Has report.html drawn in a comparison's folder, and says where; a warning if that is not possible.
+// Draws report.html in a study's folder.
 void draw_report(const std::filesystem::path& folder, bool quiet);
 
-// The report of an earlier run would show other results than those beside it: renames it to report.old.html, and says
-// so.
-void put_report_aside(const std::filesystem::path& folder, bool quiet);
+// Renames report.html of an earlier run, which would not match the new results, to report.old.html.
+void rename_old_report(const std::filesystem::path& folder, bool quiet);
 
-// Has <file>.png drawn beside a file of axes, <file>.vtu, and says where; a warning if that is not possible.
+// Draws the material axes in `file`, a .vtu, as a .png of the same name.
 void draw_axes(const std::filesystem::path& file);
 
-// Has modes.png drawn in a folder that `orthodyn modes` wrote, and says where; a warning if that is not possible.
+// Draws modes.png in a folder written by `orthodyn modes`.
 void draw_modes(const std::filesystem::path& folder);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// `orthodyn init`: a commented file to start from.
+// `orthodyn init`: writes a commented input file to start from.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -81,7 +81,7 @@ expect:                    # for `orthodyn verify` and `orthodyn stability`; see
   - quantity: energy.balance
     take: drift
     value: 0
-    source: energy, less what damping took and loads gave, is constant
+    source: energy plus dissipation minus work of loads is constant
     absolute: 0.01
     reason: 100 rtol
 )";
@@ -187,14 +187,16 @@ std::string modeline(const std::string& kind) {
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 
-// What an Abaqus file has, in the place of the template's mesh, materials and regions.
+// The template with mesh, materials, regions, clamps and loads of an Abaqus file.
 std::string from_deck(const std::string& kind, const std::string& deck, const std::string& units,
                       const fs::path& scene) {
   if (kind != "scene" && kind != "static")
-    throw ConfigError(fmt::format("--from makes a scene (scene or static), no {}", kind));
-  if (units != "SI" && units != "mm_t_s") throw ConfigError(fmt::format("--units {}: SI or mm_t_s", units));
+    throw ConfigError(fmt::format("--from: makes a scene or static file, not a {} file", kind));
+  if (units != "SI" && units != "mm_t_s")
+    throw ConfigError(fmt::format("--units: expected SI or mm_t_s, found '{}'", units));
   if (fs::path(deck).extension() != ".inp")
-    throw ConfigError(deck, "--from reads Abaqus files (.inp); meshes of other formats have no materials to take over");
+    throw ConfigError(deck,
+                      "--from: expected an Abaqus file (.inp); for other meshes set mesh: {type: file} in the scene");
   const std::string file = fs::proximate(fs::absolute(deck), fs::absolute(scene).parent_path()).string();
   const bool is_static = kind == "static";
   const AbaqusScene made =
@@ -214,7 +216,7 @@ int init(const InitArguments& arguments) {
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
   if (is_there(path)) throw ConfigError(path.string(), "already exists; choose another name");
-  if (arguments.units && !arguments.from) throw ConfigError("--units goes with --from DECK.inp");
+  if (arguments.units && !arguments.from) throw ConfigError("--units: only allowed with --from DECK.inp");
   const std::string text =
       arguments.from ? from_deck(kind, *arguments.from, arguments.units.value_or("SI"), path) : start->second;
   write_file(path, {modeline(kind), with_file_name(text, path.string())});
@@ -223,19 +225,19 @@ int init(const InitArguments& arguments) {
 }
 
 void declare(InitArguments& arguments, CommandOptions& options) {
-  options.value("kind", arguments.kind, "scene, static, comparison, sweep or stability.").required();
-  options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
+  options.value("kind", arguments.kind, "Kind of file: scene, static, comparison, sweep or stability.").required();
+  options.value("file", arguments.file, "Name of the file; default KIND.yaml.").type("FILE.yaml");
   options
       .value("--from", arguments.from,
-             "Take mesh, materials, sections, orientations, boundary conditions and loads "
-             "from an Abaqus file; what is left out is listed.")
+             "Take mesh, materials, sections, orientations, boundary conditions and loads from an Abaqus file. "
+             "Keywords that are not supported are listed.")
       .type("DECK.inp");
-  options.value("--units", arguments.units, "Of that file: SI (default), or mm_t_s for mm, t and s with N and MPa.")
+  options.value("--units", arguments.units, "Units of the Abaqus file: SI (default) or mm_t_s (mm, t, s, N, MPa).")
       .type("UNITS");
 }
 
 const CommandRegistration init_command(
-    {.order = 110, .name = "init", .sentence = "Write a commented file to start from.", .examples = R"(
+    {.order = 110, .name = "init", .sentence = "Write a commented input file to start from.", .examples = R"(
   orthodyn init scene my.yaml
   orthodyn init scene part.yaml --from part.inp
   orthodyn init static part.yaml --from part.inp --units mm_t_s

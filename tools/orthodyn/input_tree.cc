@@ -12,7 +12,7 @@ namespace orthodyn {
 
 namespace {
 
-class Walk {
+class SectionCollector {
  public:
   void visit(const std::string& path, const std::vector<Key>& keys) {
     for (const Key& key : keys) visit(path.empty() ? key.name : path + "." + key.name, key.sentence, key.schema);
@@ -59,17 +59,17 @@ const std::vector<InputKind>& input_kinds() {
       {"scene", "One simulation, for `orthodyn run`; with `expect` also a case for `orthodyn verify`.",
        Scene::spec().keys()},
       {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
-      {"sweep", "Figures of a scene over varied values, for `orthodyn sweep`.", Sweep::spec().keys()},
+      {"sweep", "Metrics of a scene for varied parameters, for `orthodyn sweep`.", Sweep::spec().keys()},
       {"stability", "Hard cases x integrators, graded, for `orthodyn stability`.", Stability::spec().keys()},
   };
   return all;
 }
 
 std::vector<InputSection> input_sections(const InputKind& kind) {
-  Walk walk;
-  walk.sections.push_back({"", "", kind.sentence, kind.keys});
-  walk.visit("", kind.keys);
-  return walk.sections;
+  SectionCollector collector;
+  collector.sections.push_back({"", "", kind.sentence, kind.keys});
+  collector.visit("", kind.keys);
+  return collector.sections;
 }
 
 std::string default_type(const Key& key) {

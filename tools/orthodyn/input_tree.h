@@ -1,5 +1,4 @@
-// The input as a tree of sections, walked from the declarations of the keys: what `orthodyn schema` and
-// the reference page are written from.
+// The sections of the input files, collected from the declared keys for `orthodyn schema` and `list --markdown`.
 #pragma once
 
 #include <string>
@@ -15,22 +14,22 @@ struct InputKind {
   std::vector<Key> keys;
 };
 
-// scene, comparison
+// scene, comparison, sweep, stability
 const std::vector<InputKind>& input_kinds();
 
-// A section of the input, or one of the things that a section with `type` can be.
+// A section of the input, or one type of a section with `type`.
 struct InputSection {
   std::string path;      // "materials.<name>", "clamps.<n>.box"; "" for the file itself
-  std::string type;      // the word of `type`, or ""
-  std::string sentence;  // of the key that it stands at, or of the type
+  std::string type;      // value of `type`, or ""
+  std::string sentence;  // describes the key of the section, or the type
   std::vector<Key> keys;
   std::vector<std::pair<std::string, std::string>> facts = {};  // of the type: ("source", "Newmark 1959")
 };
 
-// All sections of a file, each before those within it; what can stand in several places is listed once.
+// All sections of a file, each before its subsections. A section that may occur in several places is listed once.
 std::vector<InputSection> input_sections(const InputKind& kind);
 
-// The type that a section with `type` has where it says none, or "".
+// Default of `type` in the section at `key`; "" without a default.
 std::string default_type(const Key& key);
 
 }  // namespace orthodyn

@@ -1,5 +1,4 @@
-// Files that come with the program: beside it where it is installed, else in the tree that it was built
-// from.
+// Paths of files that belong to the program: in the installation, else in the source tree.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +7,13 @@
 
 namespace orthodyn {
 
-// The tool that draws; it may be missing.
+// The drawing tool; may not exist.
 std::filesystem::path draw_tool();
 
-// What starts it: itself, or the Python that the environment variable ORTHODYN_DRAW_PYTHON names, with it.
+// Command that starts the drawing tool, with the Python of the environment variable ORTHODYN_DRAW_PYTHON if set.
 std::vector<std::string> draw_command();
 
-// The JSON Schema of a kind of input; it may be missing.
+// JSON Schema of a kind of input ("scene"); may not exist.
 std::filesystem::path schema_file(const std::string& kind);
 
 }  // namespace orthodyn

@@ -12,7 +12,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr unsigned kSecondsToEnd = 4;  // what waits for the program's end may give it five
+constexpr unsigned kSecondsToEnd = 4;  // less than the 5 s after which mpirun kills its ranks (mpirun.h)
 
 std::atomic<bool> flag{false};
 std::atomic<bool> catches_sigterm{false};
@@ -24,22 +24,22 @@ sigset_t only_sigterm() {
   return set;
 }
 
-// Blocked in every thread, so that nobody's handler runs: before the libraries are initialised, for OpenBLAS starts
-// threads then, which inherit it.
+// SIGTERM is blocked in every thread, so that no library's handler runs. This must happen before libraries are
+// initialised: OpenBLAS starts threads then, and they inherit the mask.
 void block_sigterm(int, char**, char**) {
   const sigset_t term = only_sigterm();
   pthread_sigmask(SIG_BLOCK, &term, nullptr);
 }
 [[gnu::section(".preinit_array"), gnu::used]] void (*block_before_all_else)(int, char**, char**) = block_sigterm;
 
-void begin_to_end() {
+void request_end() {
   flag = true;
   alarm(kSecondsToEnd);
 }
 
 void on_signal(int signal) {
-  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
-  begin_to_end();
+  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may both send SIGHUP
+  request_end();
 }
 
 void end_by_sigterm() {
@@ -49,11 +49,11 @@ void end_by_sigterm() {
   std::raise(SIGTERM);
 }
 
-// A step or a factorisation can take longer. Only what is safe in a signal handler; processes that were started die
-// with this one (process.cc), and files are whole at any time, or cut back by --resume.
+// Uses only functions that are safe in a signal handler. Child processes end with this one (process.cc); files are
+// complete at any time, or truncated by --resume.
 void end_at_once(int) {
   static constexpr char kText[] =
-      "\ninterrupted: ended after 4 s in the middle of a computation; what was written by then is kept\n";
+      "\ninterrupted: ended after 4 s in the middle of a computation; files written so far are kept\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kText, sizeof kText - 1);
   _exit(130);
 }
@@ -73,7 +73,7 @@ void wait_for_sigterm() {
     int signal = 0;
     while (sigwait(&term, &signal) == 0) {
       if (!catches_sigterm.exchange(false)) end_by_sigterm();
-      begin_to_end();
+      request_end();
     }
   }).detach();
 }
@@ -87,15 +87,15 @@ void end_with_parent_if_asked() {
 
 const std::atomic<bool>& interrupted() { return flag; }
 
-void take_time_to_end() { alarm(0); }
+void cancel_time_limit() { alarm(0); }
 
 void catch_interrupts() {
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, on_signal);
   catches_sigterm = true;
-  if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);  // it is under nohup
+  if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);  // ignored under nohup
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches its limit is an error of writing
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit becomes a write error
 }
 
 }  // namespace orthodyn

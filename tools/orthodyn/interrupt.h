@@ -1,24 +1,28 @@
-// Ctrl-C, and the other signals that end a program, as a flag that is read between steps. A second one ends it at once,
-// and so do four seconds in which it has not come to its end: a step or a factorisation may take hours.
+// SIGINT, SIGTERM and SIGHUP as a flag that computations read between steps. The program ends at once on a second
+// signal, and 4 s after the first in any case, because a step or a factorisation may take hours.
 #pragma once
 
 #include <atomic>
 
 namespace orthodyn {
 
-// True from the first SIGINT, SIGTERM or SIGHUP on, once catch_interrupts() was called.
+// True after the first SIGINT, SIGTERM or SIGHUP; needs catch_interrupts().
 const std::atomic<bool>& interrupted();
-// A thread of its own waits for SIGTERM from here on, and does what the signal is to do: METIS, which orders large
-// matrices, would take it for an error of its own. Without effect where the program was started to ignore it.
+
+// Starts a thread that waits for SIGTERM and handles it, because METIS installs a handler that treats SIGTERM as its
+// own error. No effect if SIGTERM is ignored.
 void wait_for_sigterm();
-// Where the environment variable ORTHODYN_END_WITH_PARENT is set, the program gets a SIGTERM when the one that started
-// it ends in any way: a study of a Python that is killed does not go on for hours. Programs that it starts do not see
-// it.
+
+// If the environment variable ORTHODYN_END_WITH_PARENT is set, the kernel sends SIGTERM when the parent process ends,
+// so that a study does not outlive the Python process that started it. Unsets the variable, so that children do not
+// inherit it.
 void end_with_parent_if_asked();
-// What was interrupted has come to its end: what is left to do, such as drawing, may take longer than four seconds. A
-// second signal still ends it.
-void take_time_to_end();
-// From here on a reader of what is printed that goes away does not end the program, either.
+
+// Cancels the limit of 4 s; called once the computation has ended, because drawing may take longer. A second signal
+// still ends the program.
+void cancel_time_limit();
+
+// Installs the signal handlers; also ignores SIGPIPE, so that a closed output pipe does not end the program.
 void catch_interrupts();
 
 }  // namespace orthodyn

@@ -1,8 +1,8 @@
-// `orthodyn measure`, `evaluate` and `assess`: one job of a study, in a process of its own.
+// `orthodyn measure`, `evaluate` and `assess` (hidden): one job of a study in its own process.
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/study/compare/measurement.h"
-#include "lib/study/points/evaluate_point.h"
-#include "lib/study/stability/evaluate_case.h"
+#include "lib/study/points/evaluation.h"
+#include "lib/study/stability/stability_result.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/on_ranks.h"
 
@@ -17,16 +17,15 @@ struct JobArguments {
 void declare(JobArguments& arguments, CommandOptions& options) { options.value("folder", arguments.folder).required(); }
 
 template <void (*work)(const std::filesystem::path&)>
-int do_in_folder(const JobArguments& arguments) {
+int run_in_folder(const JobArguments& arguments) {
   work(arguments.folder);
   return 0;
 }
 
-// By this process and others, where mpirun has started several.
 template <void (*work)(const std::filesystem::path&, const Ranks*)>
-int do_on_ranks(const JobArguments& arguments) {
-  code_fingerprint();  // before MPI's libraries are among the program's
-  return on_world_ranks([&](const Ranks* ranks) {
+int run_in_folder_on_ranks(const JobArguments& arguments) {
+  code_fingerprint();  // stored before MPI libraries are loaded, which would change it
+  return run_on_world_ranks([&](const Ranks* ranks) {
     work(arguments.folder, ranks);
     return 0;
   });
@@ -43,11 +42,11 @@ CommandText text_on_ranks(int order, const std::string& name, const std::string&
 }
 
 const CommandRegistration measure_command(text_on_ranks(41, "measure", "One point of a comparison; called by compare."),
-                                          declare, do_on_ranks<study::compare::measure>);
+                                          declare, run_in_folder_on_ranks<study::compare::measure>);
 const CommandRegistration evaluate_command(text_on_ranks(51, "evaluate", "One point of a sweep; called by sweep."),
-                                           declare, do_on_ranks<study::evaluate_point>);
+                                           declare, run_in_folder_on_ranks<study::evaluate_point>);
 const CommandRegistration assess_command(text(61, "assess", "One case of a matrix; called by stability."), declare,
-                                         do_in_folder<study::stability::evaluate_case>);
+                                         run_in_folder<study::stability::evaluate_case>);
 
 }  // namespace
 

@@ -1,225 +1,121 @@
-// `orthodyn list`: what can be named in a scene.
+// `orthodyn list`: what an input file can name, by chapters, or every key as a page (docs/reference.md).
 #include <fmt/format.h>
 
-#include <functional>
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <string>
+#include <vector>
 
-#include "lib/config/registry.h"
+#include "lib/core/errors.h"
 #include "lib/core/spelling.h"
-#include "lib/fem/fem_model.h"
-#include "lib/fem/nodal_fields.h"
-#include "lib/linear/solver.h"
-#include "lib/material/presets.h"
-#include "lib/mesh/io/mesh_format.h"
-#include "lib/scene/quantity.h"
-#include "lib/scene/scene.h"
-#include "lib/study/compare/comparison.h"
-#include "lib/study/stability/stability.h"
-#include "lib/study/sweep/sweep.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/reference_page.h"
+#include "tools/orthodyn/input_tree.h"
+#include "tools/orthodyn/list_chapters.h"
 
 namespace orthodyn {
 
 namespace {
 
 struct ListArguments {
-  std::string what;  // a chapter; all, if empty
+  std::string what;  // chapter; all if empty
   bool markdown = false;
 };
 
-void print_key(const Key& key) {
-  std::string facts = type_text(key.schema);
-  if (!key.unit.empty()) facts += ", " + key.unit;
-  if (const auto range = range_text(key.range); !range.empty()) facts += ", " + range;
-  facts += key.required ? ", required" : key.fallback.empty() ? "" : ", default " + key.fallback;
-  fmt::print("    {:<22} {} ({})\n", key.name, key.sentence, facts);
+constexpr const char* kReferenceHead = R"(# Reference: every key of the input
+
+Written by `orthodyn list --markdown` from the declarations that the program reads its input with; a test keeps
+this page up to date. Numbers are in SI units; a key with a unit also takes a text such as `"11.9 GPa"`,
+`25 mm` or `30 deg`. Any section may take keys from other files with `include: FILE` or a list of files: the
+section's own keys take precedence. A key in **bold** is required. `<name>` is a name of your choice, `<n>` an entry
+of a list.
+)";
+
+// A table cell in Markdown: escapes bars.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+  return text;
 }
 
-void print_entry(const std::string& name, const std::string& sentence, const std::vector<Key>& keys) {
-  fmt::print("  {}\n    {}\n", name, sentence);
-  for (const auto& key : keys) print_key(key);
+std::string code(const std::string& text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
+
+std::string facts(const Key& key) {
+  std::string out = cell(type_text(key.schema));
+  if (!key.unit.empty()) out += ", " + key.unit;
+  if (const auto range = range_text(key.range); !range.empty()) out += ", " + range;
+  return out;
 }
 
-template <class Base>
-void list_registry() {
-  for (const auto& [name, entry] : Registry<Base>::entries()) {
-    std::string sentence = entry.sentence;
-    for (const auto& [fact, text] : entry.facts) sentence += fmt::format("\n    {}: {}", fact, text);
-    print_entry(name, sentence, entry.keys);
+void print_keys(const std::vector<Key>& keys) {
+  if (keys.empty()) return;
+  fmt::print("\n| key | value | default | |\n|---|---|---|---|\n");
+  for (const Key& key : keys) {
+    const std::string name = key.required ? "**" + key.name + "**" : key.name;
+    fmt::print("| {} | {} | {} | {} |\n", name, facts(key), code(key.fallback), cell(key.sentence));
   }
 }
 
-void list_meshes() {
-  list_registry<MeshSource>();
-  fmt::print("  endings of mesh files: {}\n", known_mesh_endings());
+std::string heading(const InputSection& section) {
+  return section.type.empty() ? section.path : section.path + ": {type: " + section.type + "}";
 }
 
-void print_strength(const Strength& strength) {
-  const auto three = [](const Vec3& pascal) {
-    const Vec3 v = 1e-6 * pascal;
-    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v[0], v[1], v[2]);
-  };
-  fmt::print("    strengths along 1, 2, 3: tension {}; compression {}; shear 12, 23, 31: {} MPa\n",
-             three(strength.tension), three(strength.compression), three(strength.shear));
+bool same(const Key& a, const Key& b) {
+  return a.name == b.name && facts(a) == facts(b) && a.fallback == b.fallback && a.sentence == b.sentence;
 }
 
-void list_presets() {
-  for (const auto& p : presets()) {
-    const auto& c = p.constants;
-    const auto reverse = [&](double nu, int i, int j) { return nu * c.young[j] / c.young[i]; };
-    constexpr double kGiga = 1e9;
-    fmt::print("  {}\n    {}. {}\n", p.name, p.source, p.axes);
-    fmt::print("    density {}\n",
-               p.density ? fmt::format("{} kg/m^3", *p.density) : "must be given: not in the source");
-    fmt::print("    E1 {:.4g}, E2 {:.4g}, E3 {:.4g}, G12 {:.4g}, G23 {:.4g}, G13 {:.4g} GPa\n", c.young[0] / kGiga,
-               c.young[1] / kGiga, c.young[2] / kGiga, c.g12 / kGiga, c.g23 / kGiga, c.g13 / kGiga);
-    fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
-               reverse(c.nu12, 0, 1), reverse(c.nu23, 1, 2), reverse(c.nu13, 0, 2));
-    if (p.strength) print_strength(*p.strength);
+// Those of `keys` that `others` lacks.
+std::vector<Key> keys_beside(const std::vector<Key>& keys, const std::vector<Key>& others) {
+  std::vector<Key> out;
+  for (const Key& key : keys)
+    if (std::none_of(others.begin(), others.end(), [&](const Key& other) { return same(key, other); }))
+      out.push_back(key);
+  return out;
+}
+
+// A type that another section has as well: only the keys that differ.
+void print_differences(const InputSection& section, const InputSection& described) {
+  const auto further = keys_beside(section.keys, described.keys);
+  std::vector<std::string> missing;
+  for (const Key& key : described.keys)
+    if (std::none_of(section.keys.begin(), section.keys.end(), [&](const Key& own) { return own.name == key.name; }))
+      missing.push_back("`" + key.name + "`");
+  fmt::print("\nAs `{}`{}{}\n", heading(described), missing.empty() ? "" : ", without " + join(missing),
+             further.empty() ? "." : ", and:");
+  print_keys(further);
+}
+
+void print_section(const InputSection& section) {
+  fmt::print("\n{}\n", section.sentence);
+  for (const auto& [fact, text] : section.facts)
+    fmt::print("{}- {}: {}\n", fact == section.facts.front().first ? "\n" : "", fact, text);
+  print_keys(section.keys);
+}
+
+void print_reference_page() {
+  fmt::print("{}", kReferenceHead);
+  std::map<std::string, InputSection> described;  // by type and sentence
+  for (const auto& kind : input_kinds()) {
+    fmt::print("\n## {}{}\n", static_cast<char>(std::toupper(static_cast<unsigned char>(kind.name.front()))),
+               kind.name.substr(1));
+    for (const auto& section : input_sections(kind)) {
+      if (!section.path.empty()) fmt::print("\n### `{}`\n", heading(section));
+      const auto [first, is_new] = described.emplace(section.type + ": " + section.sentence, section);
+      if (is_new || section.type.empty()) print_section(section);
+      else print_differences(section, first->second);
+    }
   }
-}
-
-void list_solvers() {
-  for (const auto& [name, kind] : solver_registry())
-    print_entry(name, kind.sentence + (kind.unavailable.empty() ? "" : " Not here: " + kind.unavailable + "."), {});
-}
-
-void list_terms() {
-  print_entry("elasticity", "Corotational or linear elasticity of every region.", Elasticity::spec().keys());
-  print_entry("damping", "Rayleigh damping; the stiffness part is objective.", Damping::spec().keys());
-  print_entry("gravity", "Uniform gravity: three numbers, m/s^2.", {});
-  print_entry("loads", "Dead tractions and total forces on surfaces, with a factor in time.", Load::spec().keys());
-  print_entry("clamps", "Nodes that do not move; eliminated from the system.", Clamp::spec().keys());
-  print_entry("clamps.<n>.box", "Nodes in a box.", BoxSelection::spec().keys());
-  print_entry("clamps.<n>.plane", "Nodes on a plane.", PlaneSelection::spec().keys());
-  print_entry("motions", "Nodes whose motion is prescribed; eliminated from the system.", SupportMotion::spec().keys());
-  print_entry("motions.<n>.rotation", "A rotation of any size about an axis.", Rotation::spec().keys());
-  list_registry<TermChoice>();
-  print_entry("initial", "The state at the start.", Initial::spec().keys());
-  print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());
-}
-
-void list_scene() {
-  print_entry("scene", "The keys of a scene.", Scene::spec().keys());
-  print_entry("time", "Time span.", TimeSpan::spec().keys());
-  print_entry("regions.<name>", "Material, axes and kinematics of a region.", Region::spec().keys());
-  print_entry("output", "What is written.", Output::spec().keys());
-  print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
-}
-
-void list_expectations() {
-  print_entry("expect.<n>", "A figure that `orthodyn verify` checks.", Expectation::spec().keys());
-}
-
-void list_statics() {
-  print_entry("statics", "How equilibrium is found, for analysis: static and start: equilibrium.",
-              Statics::spec().keys());
-  list_registry<EquilibriumChoice>();
-}
-
-void list_buckling() {
-  print_entry("buckling", "What is computed of critical load factors, for analysis: buckling.",
-              Buckling::spec().keys());
-}
-
-void list_events() {
-  print_entry("events.<n>", "A value that a quantity crosses; the crossing is logged or ends the run.",
-              EventSpec::spec().keys());
-}
-
-void list_comparison() {
-  print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
-  print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
-  print_entry("limits", "Limits of each point of a comparison.", Limits::spec().keys());
-  print_entry("reference", "What errors are measured against.", ReferenceOptions::spec().keys());
-}
-
-void list_sweep() {
-  print_entry("sweep", "The keys of a sweep, for `orthodyn sweep`.", Sweep::spec().keys());
-  print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
-  print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
-  print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
-  print_entry("quantities.<name>",
-              "What is computed for every point: one of quantity, mode (or along), buckling, cost.",
-              WantedMetric::spec().keys());
-  print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
-  print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
-  print_entry("limits", "Limits of each point of a sweep.", Limits::spec().keys());
-}
-
-void list_stability() {
-  print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
-  print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
-  print_entry("limits", "Limits of each trial.", Limits::spec().keys());
-}
-
-void list_fields() {
-  const FemModel model{FemModel::Parts{}};
-  for (const auto& info : model.outputs()) {
-    if (info.location == Location::global) continue;
-    fmt::print("  {:<18} {} ({}, {} component{}, {})\n", info.name, info.sentence,
-               info.location == Location::node ? "per node" : "per cell", info.components,
-               info.components == 1 ? "" : "s", info.unit);
-  }
-}
-
-// Those of probes are the fields per node.
-void list_quantities() {
-  const FemModel model{FemModel::Parts{}};
-  for (const auto& info : model.outputs())
-    if (info.location == Location::global)
-      fmt::print("  {:<22} {} ({} component{}, {})\n", info.name, info.sentence, info.components,
-                 info.components == 1 ? "" : "s", info.unit);
-  fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
-  fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
-  fmt::print(
-      "  reaction.SUPPORT       Force of a clamp or a moved support on the body, by its name (3 components, "
-      "N).\n");
-  fmt::print("  torque.SUPPORT         Its torque about the middle of the support's nodes (3 components, N m).\n");
-  fmt::print("                         Both with output.reactions: true, or where `expect` names one.\n");
-  fmt::print("  [REGION.]FIELD.largest, .smallest\n");
-  fmt::print(
-      "                         Over the nodes of the body or of a region, for a tensor with a component "
-      "(nodal_stress.xx.largest):\n");
-  for (const OutputInfo& info : region_fields())
-    fmt::print("                         {}{}\n", info.name,
-               info.component_names.empty() ? "" : fmt::format(" .{}", fmt::join(info.component_names, " .")));
-}
-
-const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
-  static const std::vector<std::pair<std::string, std::function<void()>>> all = {
-      {"scene", list_scene},
-      {"materials", list_registry<Material>},
-      {"presets", list_presets},
-      {"meshes", list_meshes},
-      {"axes", list_registry<AxesSource>},
-      {"terms", list_terms},
-      {"factors", list_registry<TimeFunction>},
-      {"integrators", list_registry<IntegratorChoice>},
-      {"solvers", list_solvers},
-      {"statics", list_statics},
-      {"buckling", list_buckling},
-      {"events", list_events},
-      {"expect", list_expectations},
-      {"comparison", list_comparison},
-      {"sweep", list_sweep},
-      {"stability", list_stability},
-      {"fields", list_fields},
-      {"quantities", list_quantities},
-  };
-  return all;
 }
 
 int list(const ListArguments& arguments) {
   const std::string& what = arguments.what;
   if (arguments.markdown) {
-    if (!what.empty()) throw ConfigError("--markdown prints everything; leave '" + what + "' out");
+    if (!what.empty()) throw ConfigError("--markdown prints all chapters; leave out '" + what + "'");
     print_reference_page();
     return 0;
   }
   std::vector<std::string> names;
   bool found = false;
-  for (const auto& [name, print] : chapters()) {
+  for (const auto& [name, print] : list_chapters()) {
     names.push_back(name);
     if (!what.empty() && what != name) continue;
     found = true;
@@ -228,20 +124,21 @@ int list(const ListArguments& arguments) {
     fmt::print("\n");
   }
   if (found) return 0;
-  throw ConfigError(
-      fmt::format("nothing to list under '{}'{}; known: {}", what, did_you_mean(what, names), join(names)));
+  throw ConfigError(fmt::format("no chapter '{}'{}; known: {}", what, did_you_mean(what, names), join(names)));
 }
 
 void declare(ListArguments& arguments, CommandOptions& options) {
-  options.value(
-      "what", arguments.what,
-      "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, buckling, events, "
-      "expect, comparison, sweep, stability, fields, quantities; all if left out.");
-  options.flag("--markdown", arguments.markdown, "Every key of the input as one page in Markdown.");
+  options.value("what", arguments.what,
+                "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, buckling, "
+                "events, expect, comparison, sweep, stability, fields or quantities; default: all.");
+  options.flag("--markdown", arguments.markdown, "Print every key of the input as one page in Markdown.");
 }
 
 const CommandRegistration list_command(
-    {.order = 90, .name = "list", .sentence = "List what a scene can name, with its keys.", .examples = R"(
+    {.order = 90,
+     .name = "list",
+     .sentence = "List what an input file can name (materials, integrators, ...), with keys, units and defaults.",
+     .examples = R"(
   orthodyn list materials
   orthodyn list --markdown > reference.md)"},
     declare, list);

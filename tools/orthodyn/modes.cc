@@ -1,13 +1,12 @@
-// `orthodyn modes`: natural frequencies and shapes of a scene's body about rest or equilibrium, without damping.
-
+// `orthodyn modes`: undamped natural frequencies and mode shapes about rest or a static equilibrium.
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <optional>
 
-#include "lib/core/digits.h"
+#include "lib/core/number_format.h"
 #include "lib/simulation/modes/modal_analysis.h"
-#include "lib/simulation/modes/modes_folder.h"
+#include "lib/simulation/modes/mode_files.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -27,16 +26,16 @@ struct ModesArguments {
 };
 
 void print_zeros(const Modes& modes, int rigid) {
-  if (rigid > 0) fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", rigid, rigid == 1 ? "is" : "are");
+  if (rigid > 0) fmt::print("the first {} {} rigid: 0 Hz\n", rigid, rigid == 1 ? "is" : "are");
   if (const int more = modes.zeros - rigid; more > 0)
-    fmt::print(
-        "{} {} cannot be distinguished from zero: round-off hides frequencies below {:.2g} Hz in a mesh this stiff{}\n",
-        rigid > 0 ? fmt::format("{} more", more) : fmt::format("the first {}", more), more == 1 ? "mode" : "modes",
-        modes.resolution, rigid > 0 ? "" : "; the body is held, none of them is rigid");
+    fmt::print("{} {} cannot be distinguished from zero: round-off hides frequencies below {:.2g} Hz of this mesh{}\n",
+               rigid > 0 ? fmt::format("{} more", more) : fmt::format("the first {}", more),
+               more == 1 ? "mode" : "modes", modes.resolution,
+               rigid > 0 ? "" : "; the body is held, none of them is rigid");
 }
 
-// The share by which a frequency is too high.
-std::string by_the_mesh(const ModalAnalysis& analysis, std::size_t mode) {
+// Relative mesh error of a frequency, positive if the frequency is too high; "" for 0.
+std::string mesh_error_text(const ModalAnalysis& analysis, std::size_t mode) {
   const double error = analysis.mesh_errors()[mode];
   return error == 0 ? "" : fmt::format("{:+.2g} %", 100 * error);
 }
@@ -49,28 +48,27 @@ void print_table(const ModalAnalysis& analysis, bool equilibrium) {
              model.parts().mass->lumped() ? "lumped" : "consistent", modes.modes.size(), model.num_dofs());
   fmt::print("solver  {}\n", modes.solver);
   print_zeros(modes, analysis.rigid());
-  fmt::print("  mode  frequency [Hz]  by the mesh   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
+  fmt::print("  mode  frequency [Hz]   mesh error   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const Vec3 share = 100 * modes.modes[k].effective_mass() / mass;
     sum += share;
     fmt::print("  {:4}  {:>14}  {:>11}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1,
-               known_digits(modes.modes[k].frequency(), analysis.mesh_errors()[k]), by_the_mesh(analysis, k), share[0],
-               share[1], share[2], modes.modes[k].residual);
+               known_digits(modes.modes[k].frequency(), analysis.mesh_errors()[k]), mesh_error_text(analysis, k),
+               share[0], share[1], share[2], modes.modes[k].residual);
   }
   fmt::print("  {:4}  {:>14}  {:11}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", "", sum[0], sum[1], sum[2]);
   if (modes.modes.front().lambda < 0)
-    fmt::print("negative frequencies: the state is unstable, motion grows at that rate (rad/s: angular_frequency)\n");
+    fmt::print("negative frequencies: the state is unstable; the motion grows as exp(|angular_frequency| t)\n");
 }
 
-// How the errors by the mesh were found, and what of them to heed.
-void tell_errors(const ModalAnalysis& analysis) {
-  const FrequencyErrors& errors = analysis.how_estimated();
-  fmt::print("errors by the mesh from {}\n", errors.by_finer_elements
-                                                 ? fmt::format("finer elements, in {:.2g} s of CPU", errors.cpu_seconds)
-                                                 : std::string("recovered stresses"));
+void print_mesh_errors(const ModalAnalysis& analysis) {
+  const FrequencyErrors& errors = analysis.frequency_errors();
+  fmt::print("mesh errors estimated from {}\n",
+             errors.by_finer_elements ? fmt::format("finer elements, in {:.2g} s of CPU", errors.cpu_seconds)
+                                      : std::string("recovered stresses"));
   const int order = analysis.model().parts().mesh.order();
-  for (const std::string& warning : {frequency_warning(errors, order), blindness_warning(errors.blind)})
+  for (const std::string& warning : {frequency_warning(errors, order), locking_warning(errors.locking_risk)})
     if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
@@ -84,37 +82,34 @@ int compute_modes(const ModesArguments& arguments) {
   if (arguments.quiet) return 0;
   const Modes& modes = analysis.modes();
   print_table(analysis, arguments.equilibrium);
-  tell_errors(analysis);
+  print_mesh_errors(analysis);
   if (analysis.takes_symmetric_part())
     fmt::print(stderr,
-               "warning: a load that follows the body has an unsymmetric stiffness, of which modes take the symmetric "
-               "part; they do not show flutter. A motion shows it (analysis: dynamic)\n");
+               "warning: a load that follows the body makes the stiffness unsymmetric; modes use its symmetric part "
+               "and do not show flutter. Run a motion (analysis: dynamic) to see it\n");
   fmt::print("results {}\n", folder.string());
   if (modes.zeros < arguments.count) draw_modes(folder);
   else
-    fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,
+    fmt::print("no picture: all {} modes {}; compute more with -n\n", modes.zeros,
                analysis.rigid() == modes.zeros ? "are rigid" : "are at 0 Hz");
   return 0;
 }
 
 void declare(ModesArguments& arguments, CommandOptions& options) {
   options.value("scene", arguments.scene, "A scene in YAML.").required().type("SCENE.yaml");
-  options.value("-n,--count", arguments.count, "How many, the lowest first, rigid ones included.")
+  options.value("-n,--count", arguments.count, "Number of modes, lowest first, including rigid ones.")
       .range(1, 1000000)
       .show_default();
   options.flag("--equilibrium", arguments.equilibrium,
-               "About the static equilibrium under the scene's loads, not about rest.");
+               "Compute modes about the static equilibrium under the scene's loads instead of about rest.");
   options.value("--out", arguments.out, "Folder for the results; default out/modes/<scene>.").type("DIR");
-  options.flag("--force", arguments.force, "Replace earlier modes in the folder.");
-  options.flag("--quiet", arguments.quiet, "No table and no picture.");
-  options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
+  options.flag("--force", arguments.force, "Replace earlier results in the folder.");
+  options.flag("--quiet", arguments.quiet, "Write results only: no table and no picture.");
+  options.repeated("--set", arguments.set, "Change a value of the scene by its path.").type("PATH=VALUE");
 }
 
 const CommandRegistration modes_command(
-    {.order = 30,
-     .name = "modes",
-     .sentence = "Natural frequencies and shapes of a scene's body, without damping.",
-     .examples = R"(
+    {.order = 30, .name = "modes", .sentence = "Compute undamped natural frequencies and mode shapes.", .examples = R"(
   orthodyn modes configs/scenes/tuning_fork.yaml -n 8)"},
     declare, compute_modes);
 

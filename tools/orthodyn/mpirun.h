@@ -1,4 +1,4 @@
-// mpirun, as commands start it: several ranks of this program.
+// Starts several MPI ranks of this program with mpirun.
 #pragma once
 
 #include <filesystem>
@@ -7,26 +7,29 @@
 
 namespace orthodyn {
 
-// This executable.
+// Path of the running executable.
 std::filesystem::path this_program();
 
-// Throws ConfigError where this build cannot compute on several ranks, or mpirun would not start them.
+// Throws ConfigError if this build has no MPI, mpirun is missing, or Open MPI would refuse to run as root.
 void require_mpirun();
 
-// Seconds that mpirun gives ranks for their checkpoint when they are to end: by then they end by themselves
-// (interrupt.cc), where Open MPI would give them one.
-inline constexpr const char* kPatienceVariable = "OMPI_MCA_odls_base_sigkill_timeout";
-inline constexpr const char* kPatience = "5";
+// Seconds between Open MPI's SIGTERM and SIGKILL, in which ranks write their checkpoint. Open MPI's default of 1 s is
+// too short, because a rank takes up to 4 s to end by itself (interrupt.cc).
+inline constexpr const char* kKillTimeoutVariable = "OMPI_MCA_odls_base_sigkill_timeout";
+inline constexpr const char* kKillTimeout = "5";
 
-// Words that start this program on so many ranks; without mpirun for one.
+// The command line that starts this program on `ranks` ranks, without mpirun if `ranks` is 1.
 std::vector<std::string> program_on_ranks(int ranks);
 
-// Sets the environment of mpirun for `groups` of so many ranks at a time on this machine, and warns where there are
-// more than processors. In a job of SLURM, which knows how many there are, no more are started than it allows.
+// Sets mpirun's environment for `groups` simultaneous groups of `ranks` ranks each on this machine. Allows more ranks
+// than processors, with a warning, except in a SLURM job, where SLURM's allocation is the limit.
 void let_ranks_share_processors(int ranks, int groups);
 
-// mpirun in place of this process, so that signals reach it. `words`: of the ranks' command line, after the program.
-// Throws RunError if it cannot be started.
-[[noreturn]] void go_on_as_ranks(int ranks, const std::vector<std::string>& words);
+// Replaces this process by mpirun, so that signals reach mpirun. `words`: arguments of the program on each rank. Throws
+// RunError if mpirun cannot be started.
+[[noreturn]] void exec_on_ranks(int ranks, const std::vector<std::string>& words);
+
+// The first line (up to ';' or a line break) of what a shell command prints; empty if the command fails.
+std::string first_output_line(const std::string& command);
 
 }  // namespace orthodyn

@@ -12,15 +12,15 @@
 #include "lib/core/write_file.h"
 #include "lib/linear/mpi_world.h"
 #include "lib/simulation/run/several_ranks.h"
-#include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/print_nothrow.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr int kInputAtFault = 2, kCouldNotGoOn = 3;
+constexpr int kInputError = 2, kRunError = 3;
 
-// Rethrows what all ranks have thrown on the first one.
+// Ends all ranks if only this one failed; else rethrows on the first rank.
 int after_failure(const Ranks& ranks, const std::string& message, int exit_code) {
   if (failed_alone(&ranks)) end_all_ranks(ranks, message);
   if (ranks.is_first()) std::rethrow_exception(std::current_exception());
@@ -31,35 +31,33 @@ int after_failure(const Ranks& ranks, const std::string& message, int exit_code)
 
 void require_one_rank_unless(bool on_ranks, const std::string& command) {
   if (!on_ranks && is_one_of_several_ranks())
-    throw ConfigError(
-        fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
-                    "studies take --ranks",
-                    command));
+    throw ConfigError(fmt::format(
+        "`orthodyn {}` runs as one process only: use mpirun with `orthodyn run`, and --ranks with studies", command));
 }
 
-void let_first_rank_tell() {
+void let_first_rank_report() {
   constexpr unsigned kSeconds = 2;
   if (is_a_later_rank()) sleep(kSeconds);
 }
 
-int on_world_ranks(const std::function<int(const Ranks*)>& work) {
+int run_on_world_ranks(const std::function<int(const Ranks*)>& work) {
   const Ranks* ranks = mpi_world();
   if (!ranks) return work(nullptr);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // when mpirun is killed
-  if (!ranks->is_first()) leave_files_to_others();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the rank dies with mpirun
+  if (!ranks->is_first()) disable_file_writing();
   try {
     return work(ranks);
   } catch (const ConfigError& e) {
-    return after_failure(*ranks, e.what(), kInputAtFault);
+    return after_failure(*ranks, e.what(), kInputError);
   } catch (const std::exception& e) {
-    return after_failure(*ranks, e.what(), kCouldNotGoOn);
+    return after_failure(*ranks, e.what(), kRunError);
   }
 }
 
 void end_all_ranks(const Ranks& ranks, const std::string& message) {
-  print_notice(fmt::format("error: rank {} of {}: {}\n", ranks.rank(), ranks.size(), message));
-  ranks.abort(kCouldNotGoOn);
-  std::abort();  // which is not reached, but the compiler does not know
+  print_nothrow(fmt::format("error: rank {} of {}: {}\n", ranks.rank(), ranks.size(), message));
+  ranks.abort(kRunError);
+  std::abort();  // not reached
 }
 
 }  // namespace orthodyn

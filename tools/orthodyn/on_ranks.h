@@ -1,5 +1,4 @@
-// A command as one of several ranks that mpirun has started: it is told once what it has to tell, and when one of them
-// cannot go on all end.
+// Runs a command on the MPI ranks that mpirun started. Messages are printed once. If one rank fails, all ranks end.
 #pragma once
 
 #include <functional>
@@ -9,18 +8,18 @@
 
 namespace orthodyn {
 
-// Throws ConfigError where this process is one of several, and the command is not for that.
+// Throws ConfigError if mpirun started several ranks of a command that is for one process (`on_ranks` false).
 void require_one_rank_unless(bool on_ranks, const std::string& command);
 
-// Before an error that all ranks have found, each for itself: later ranks wait while the first one tells it and ends,
-// with which mpirun ends them.
-void let_first_rank_tell();
+// Call before printing an error that every rank has found. The other ranks wait 2 s, in which the first rank prints the
+// error and exits and mpirun ends the others.
+void let_first_rank_report();
 
-// work(ranks), which is null for a process that is alone; returns its exit code. Exceptions that all ranks throw come
-// from the first of them; the others return the exit code that belongs to it.
-int on_world_ranks(const std::function<int(const Ranks*)>& work);
+// Returns the exit code of work(ranks); `ranks` is null without MPI. If all ranks throw, only the first rethrows; the
+// others return its exit code.
+int run_on_world_ranks(const std::function<int(const Ranks*)>& work);
 
-// Ends all ranks for what has happened to this one.
+// Prints this rank's error and ends all ranks.
 [[noreturn]] void end_all_ranks(const Ranks& ranks, const std::string& message);
 
 }  // namespace orthodyn

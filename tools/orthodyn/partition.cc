@@ -1,13 +1,15 @@
-// `orthodyn partition`: what ranks would have of a scene's mesh, and tell each other, for any number of them. What
-// springs between nodes add to it is not counted.
+// `orthodyn partition`: predicts load balance and communication of a scene's mesh on any number of MPI ranks.
+// Communication of springs between nodes is not counted.
 #include "lib/mesh/partition.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 #include <vector>
 
 #include "lib/core/errors.h"
@@ -16,7 +18,6 @@
 #include "lib/scene/scene.h"
 #include "lib/simulation/run/scene_file.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/whole_numbers.h"
 
 namespace orthodyn {
 
@@ -27,15 +28,16 @@ constexpr int kMostParts = 100'000;
 struct PartitionArguments {
   std::string scene, parts = "2,4,8,16,32,64,128,256,512,1024";
   std::vector<std::string> set;
-  // Of the model of a step's time: s of one rank, and what it does meanwhile.
-  double step = 0, exchanges = 0, reductions = 0;
-  double latency = 2e-6, bandwidth = 10e9;  // s, B/s
+  double step = 0, exchanges = 0, reductions = 0;  // time of a step on one rank, s; numbers per step
+  double latency = 2e-6, bandwidth = 10e9;         // s, B/s
 };
 
+// Largest and mean loads over the parts of a partition.
 struct Division {
   int parts = 1;
   double most_cells = 0, mean_cells = 0;
-  double most_copies = 0, most_bytes = 0, all_bytes = 0;  // bytes that a part sends and receives in an exchange
+  double most_copies = 0;
+  double most_bytes = 0, all_bytes = 0;  // in one exchange: sent and received by a part; sent by all parts
   double most_neighbours = 0, mean_neighbours = 0;
 
   double imbalance() const { return most_cells / mean_cells; }
@@ -44,7 +46,7 @@ struct Division {
 Division division_of(const TetMesh& mesh, const CellGraph& graph, int parts) {
   constexpr double kBytes = 3 * sizeof(double);
   Division division{.parts = parts, .mean_cells = static_cast<double>(mesh.tets.size()) / parts};
-  for (const PartFigures& part : figures_of_parts(mesh, parts_of_cells(graph, parts), parts)) {
+  for (const PartSize& part : part_sizes(mesh, parts_of_cells(graph, parts), parts)) {
     const double bytes = kBytes * static_cast<double>(part.copies + part.copied);
     division.most_cells = std::max(division.most_cells, static_cast<double>(part.cells));
     division.most_copies = std::max(division.most_copies, static_cast<double>(part.copies));
@@ -56,8 +58,8 @@ Division division_of(const TetMesh& mesh, const CellGraph& graph, int parts) {
   return division;
 }
 
-// s. Each part computes its share; an exchange is a message to and from each neighbour, a sum over all ranks goes up
-// and down a binary tree.
+// Predicted time (s) of a step: the largest part's computation, exchanges with each neighbour, and global sums over a
+// binary tree (up and down).
 double seconds_of_step(const Division& division, const PartitionArguments& arguments) {
   const double compute = arguments.step / division.parts * division.imbalance();
   const double exchange = division.most_neighbours * arguments.latency + division.most_bytes / arguments.bandwidth;
@@ -70,6 +72,21 @@ std::string shown_step(const Division& division, const PartitionArguments& argum
   return fmt::format(" {:10.3g} s {:8.0f} %", seconds, 100 * arguments.step / division.parts / seconds);
 }
 
+// Reads "2,4,8". Throws ConfigError that names `option` unless all numbers are integers in [least, most].
+std::vector<int> parse_integers(const std::string& option, const std::string& text, int least, int most) {
+  std::vector<int> numbers;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size() || number < least || number > most)
+      throw ConfigError(
+          fmt::format("{}: expected integers from {} to {}, such as 2,4,8; found '{}'", option, least, most, text));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 void require_positive(const std::string& option, double value, bool or_zero) {
   if (!(value > 0 || (or_zero && value == 0)) || !std::isfinite(value))
     throw ConfigError(fmt::format("{}: must be {}, found {:g}", option, or_zero ? "0 or more" : "positive", value));
@@ -80,13 +97,11 @@ int partition(const PartitionArguments& arguments) {
   require_positive("--exchanges", arguments.exchanges, true);
   require_positive("--reductions", arguments.reductions, true);
   if (arguments.step > 0 && arguments.exchanges == 0 && arguments.reductions == 0)
-    throw ConfigError(
-        "--step: give --exchanges or --reductions as well; without them the model knows of no "
-        "communication");
+    throw ConfigError("--step: needs --exchanges or --reductions as well; without them communication takes no time");
   require_positive("--latency", arguments.latency, true);
   require_positive("--bandwidth", arguments.bandwidth, false);
-  const std::vector<int> numbers = whole_numbers("--parts", arguments.parts, 2, kMostParts);
-  parts_of_cells({{0, 0}, {}}, 2);  // before the mesh is read: it throws where this build cannot
+  const std::vector<int> numbers = parse_integers("--parts", arguments.parts, 2, kMostParts);
+  parts_of_cells({{0, 0}, {}}, 2);  // throws here, before the mesh is read, if PETSc is not available
   const Scene scene = read_scene(read_scene_file(arguments.scene, {.set = arguments.set}));
   const TetMesh mesh = load_mesh(scene).mesh;
   fmt::print("{}: {} nodes, {} elements of order {}\n", arguments.scene, mesh.nodes.size(), mesh.tets.size(),
@@ -94,14 +109,15 @@ int partition(const PartitionArguments& arguments) {
   const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.tets.size());
   const bool with_time = arguments.step > 0;
   fmt::print(
-      "of the largest part: elements, also as a multiple of the mean, neighbours (and their mean), copies of others'\n"
-      "nodes, bytes of a vector that it sends and receives; and what all exchange\n"
+      "per part, the largest: elements (and their ratio to the mean), neighbours (and their mean), nodes copied from "
+      "other\n"
+      "parts, data sent and received per exchange of a vector; all: data sent by all parts together\n"
       "{:>6} {:>9} {:>8} {:>11} {:>7} {:>8} {:>12} {:>11}{}\n",
       "parts", "elements", "of mean", "neighbours", "(mean)", "copies", "exchange", "all",
       with_time ? fmt::format(" {:>12} {:>10}", "step", "efficiency") : "");
   for (const int parts : numbers) {
     if (static_cast<std::size_t>(parts) > mesh.tets.size()) {
-      fmt::print("{:6}  more than there are elements\n", parts);
+      fmt::print("{:6}  more parts than elements\n", parts);
       continue;
     }
     const Division division = division_of(mesh, graph, parts);
@@ -115,22 +131,23 @@ int partition(const PartitionArguments& arguments) {
 
 void declare(PartitionArguments& arguments, CommandOptions& options) {
   options.value("scene", arguments.scene, "A scene in YAML.").required().type("SCENE.yaml");
-  options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
-  options.value("--parts", arguments.parts, "Numbers of parts, that is of ranks.").type("N,N,...").show_default();
-  options.value("--step", arguments.step, "Seconds of a step by one rank, for a model of that by more.");
-  options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.").needs("--step");
-  options.value("--reductions", arguments.reductions, "Sums over all ranks in a step.").needs("--step");
-  options.value("--latency", arguments.latency, "Seconds that a message takes at least.")
+  options.repeated("--set", arguments.set, "Change a value of the scene by its path.").type("PATH=VALUE");
+  options.value("--parts", arguments.parts, "Numbers of parts (ranks) to compare.").type("N,N,...").show_default();
+  options.value("--step", arguments.step,
+                "Measured time of a step on one rank, in s: also predict the time on more ranks.");
+  options.value("--exchanges", arguments.exchanges, "Number of vector exchanges with neighbours per step.")
+      .needs("--step");
+  options.value("--reductions", arguments.reductions, "Number of sums over all ranks per step.").needs("--step");
+  options.value("--latency", arguments.latency, "Latency of a message, in s.").show_default().needs("--step");
+  options.value("--bandwidth", arguments.bandwidth, "Bandwidth between two ranks, in bytes/s.")
       .show_default()
       .needs("--step");
-  options.value("--bandwidth", arguments.bandwidth, "Bytes a second between two ranks.").show_default().needs("--step");
 }
 
 const CommandRegistration partition_command(
     {.order = 25,
      .name = "partition",
-     .sentence = "Divide a scene's mesh for mpirun: elements of a part, neighbours, what they exchange, and a model of "
-                 "the time of a step.",
+     .sentence = "Predict how a scene's mesh divides over MPI ranks: load balance, communication, and time of a step.",
      .examples = R"(
   orthodyn partition configs/scenes/cantilever.yaml --parts 2,4
   orthodyn partition mine.yaml --parts 16,64 --step 9.1 --exchanges 400 --reductions 500)"},

@@ -35,30 +35,30 @@ std::vector<std::string> from_environment() {
   return files;
 }
 
-// How many things a scene can name by now.
-std::size_t registered() {
+// Number of registered entries.
+std::size_t num_registered() {
   return Registry<Material>::entries().size() + Registry<TermChoice>::entries().size() +
          Registry<IntegratorChoice>::entries().size() + Registry<MeshSource>::entries().size() +
          Registry<AxesSource>::entries().size() + Registry<TimeFunction>::entries().size() + mesh_formats().size() +
          solver_registry().size();
 }
 
-// Throws ConfigError for what is no plugin of this version.
+// Throws ConfigError if the file cannot be loaded, a name is taken, or nothing is registered.
 void load(const std::string& file) {
-  const std::size_t before = registered();
+  const std::size_t before = num_registered();
   if (!dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL))
     throw ConfigError(
         fmt::format("plugin {} cannot be loaded: {}. Is it a shared library, built against this orthodyn ({}) with the "
                     "same options? See docs/extend.md",
                     file, dlerror(), orthodyn_version()));
   if (!registry_conflicts().empty())
-    throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() + "' is taken; choose another");
-  if (registered() == before)
-    throw ConfigError(
-        fmt::format("plugin {} adds nothing: no material, term, integrator, mesh, axes, factor or solver registers "
-                    "itself when it is loaded. Is it the intended file, built against this orthodyn ({})? See "
-                    "docs/extend.md",
-                    file, orthodyn_version()));
+    throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() +
+                      "' is already taken; choose another");
+  if (num_registered() == before)
+    throw ConfigError(fmt::format(
+        "plugin {} adds nothing: no material, term, integrator, mesh, axes, factor or solver registers itself when it "
+        "is loaded. Is it the intended file, built against this orthodyn ({})? See docs/extend.md",
+        file, orthodyn_version()));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Shared libraries of users, whose materials, terms, integrators and meshes register themselves.
+// Loads plugins: shared libraries of users that register materials, terms, integrators or meshes.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@ namespace orthodyn {
 
 inline constexpr const char* kPluginsVariable = "ORTHODYN_PLUGINS";
 
-// Loads them, and those that the environment variable ORTHODYN_PLUGINS lists (with colons); sets it, so
-// that the processes of a comparison load them too. Throws ConfigError.
+// Loads the files listed in the environment variable ORTHODYN_PLUGINS (separated by colons), then `files`. Lists all of
+// them in the variable, so that the processes of a study load them too. Throws ConfigError.
 void load_plugins(const std::vector<std::string>& files);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// `orthodyn run`: one scene from start to end, with everything that it writes.
+// `orthodyn run`: computes a scene and writes its results.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -13,14 +13,11 @@
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/mpirun.h"
-#include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/on_ranks.h"
-#include "tools/orthodyn/run_job.h"
 #include "tools/orthodyn/run_summary.h"
+#include "tools/orthodyn/run_terminal.h"
 #include "tools/orthodyn/scene_options.h"
-#include "tools/orthodyn/slow_set_up.h"
 #include "tools/orthodyn/slurm.h"
-#include "tools/orthodyn/terminal_progress.h"
 
 namespace orthodyn {
 
@@ -32,42 +29,10 @@ struct RunArguments : SceneArguments {
   std::optional<std::string> out;
   bool quiet = false, force = false, resume = false, estimate_error = false, yes = false;
   std::optional<std::string> slurm;  // "print" or "submit"
-  std::optional<int> ranks;          // to start, or of the job
+  std::optional<int> ranks;          // number of ranks to start, now or in the job
 };
 
-// Prints what a run reports.
-class Terminal : public RunListener {
- public:
-  explicit Terminal(bool quiet) : quiet_(quiet) {
-    if (!quiet) slow_set_up_.emplace();
-  }
-
-  void on_warning(const std::string& text) override { print_notice("warning: " + text + "\n"); }
-
-  void on_notice(const std::string& text) override {
-    if (!quiet_) print_notice(text + "\n");
-  }
-
-  std::unique_ptr<Observer> on_begin(const Setup& setup) override {
-    slow_set_up_.reset();
-    if (quiet_ || setup.scene.is_static()) return nullptr;
-    return std::make_unique<TerminalProgress>(setup.scene.time.start, setup.scene.time.end, stderr);
-  }
-
-  // A summary that nobody reads is no reason to go without the estimate of the error: main.cc looks at the output.
-  void on_result(const RunResult& result) override {
-    try {
-      print_result(result, quiet_);
-    } catch (const std::system_error&) {
-    }
-  }
-
- private:
-  bool quiet_;
-  std::optional<SlowSetUp> slow_set_up_;  // until the run begins
-};
-
-// `run DIR --resume` is the scene in that folder.
+// `run DIR --resume` runs DIR/scene.yaml with DIR as the result folder.
 RunArguments with_scene_of_folder(RunArguments arguments) {
   if (!arguments.resume || !is_folder(arguments.scene)) return arguments;
   if (!arguments.out) arguments.out = arguments.scene;
@@ -86,40 +51,40 @@ int exit_code(const RunResult& result) {
   return estimated ? 0 : interrupted() ? 130 : 3;
 }
 
-void refuse_on_ranks(const RunArguments& arguments, const Ranks* ranks = nullptr) {
+void require_options_for_ranks(const RunArguments& arguments, const Ranks* ranks = nullptr) {
   if (ranks && arguments.ranks)
-    throw ConfigError(fmt::format("--ranks starts mpirun, which has already started {} ranks here; use one of the two",
-                                  ranks->size()));
+    throw ConfigError(
+        fmt::format("--ranks: mpirun has already started {} ranks; use either mpirun or --ranks", ranks->size()));
   if (arguments.estimate_error)
     throw ConfigError(
-        "--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
-        "rtol or step, and compare");
+        "--estimate-error: not available on several ranks; run again with a smaller rtol or step and compare the "
+        "results");
 }
 
-// `ranks`: of which this process is one; null for one that is alone.
+// `ranks`: the ranks that run the scene, of which this process is one; null without MPI.
 int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
-  const bool tells = !ranks || ranks->is_first();
+  const bool prints = !ranks || ranks->is_first();
   const auto simulation = Simulation::from_file(arguments.scene, arguments.changes);
-  if (ranks) refuse_on_ranks(arguments, ranks);
+  if (ranks) require_options_for_ranks(arguments, ranks);
   RunListener nobody;
-  std::optional<Terminal> terminal;
-  if (tells) terminal.emplace(arguments.quiet);
+  std::optional<RunTerminal> terminal;
+  if (prints) terminal.emplace(arguments.quiet);
   const RunResult result = simulation.run({.folder = folder_for(arguments),
                                            .force = arguments.force,
                                            .resume = arguments.resume,
                                            .estimate_error = arguments.estimate_error,
-                                           .any_output_size = arguments.yes,
+                                           .allow_large_output = arguments.yes,
                                            .ranks = ranks},
                                           interrupted(), terminal ? *terminal : nobody);
-  if (result.failed_alone && tells) ranks->abort(exit_code(result));  // the message has been printed
+  if (result.failed_alone && prints) ranks->abort(exit_code(result));  // the message has been printed
   if (result.failed_alone) end_all_ranks(*ranks, result.outcome.message);
-  if (result.was_complete && !arguments.quiet && tells)
+  if (result.was_complete && !arguments.quiet && prints)
     fmt::print("{} is complete at t = {:.6g} s: nothing to do\n", result.folder.string(), result.outcome.last.t);
   if (result.motion && result.motion->error) print_estimate(result);
   return exit_code(result);
 }
 
-// The options of the job's own command.
+// The options of this command line to pass on to the job or the ranks, except folders, --quiet and --resume.
 std::vector<std::string> options_of(const RunArguments& arguments) {
   std::vector<std::string> options;
   for (const auto& change : arguments.changes.set) options.insert(options.end(), {"--set", change});
@@ -130,26 +95,26 @@ std::vector<std::string> options_of(const RunArguments& arguments) {
   return options;
 }
 
-// What would end the job as soon as it starts is told now.
+// Validates first, so that input errors appear now and not when the job starts.
 int write_job(const RunArguments& arguments) {
   Config config = read_scene_file(arguments.scene, arguments.changes).resolving();
   Scene scene = read_scene(config);
   const int ranks = arguments.ranks.value_or(1);
   if (ranks > 1) {
-    refuse_on_ranks(arguments);
-    settle_for_ranks(config, scene);
+    require_options_for_ranks(arguments);
+    adapt_to_ranks(config, scene);
   }
   fs::path folder = fs::absolute(folder_for(arguments)).lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();  // "out/fine/"
-  fs::create_directories(folder.parent_path());                  // where the job leaves its log
-  const bool goes_on = scene.checkpoint.has_value() && !arguments.force && !arguments.estimate_error;
+  fs::create_directories(folder.parent_path());                  // for the log of the job
+  const bool can_resume = scene.checkpoint.has_value() && !arguments.force && !arguments.estimate_error;
   const RunJob job{.program = this_program(),
                    .scene = fs::absolute(arguments.scene),
                    .folder = folder,
                    .options = options_of(arguments),
                    .ranks = ranks,
                    .threads = scene.threads.value_or(1),
-                   .goes_on = goes_on || arguments.resume};
+                   .resumes = can_resume || arguments.resume};
   if (*arguments.slurm == "submit") fmt::print("job     {}\n", submit_script(folder, run_script(job)));
   else fmt::print("{}", run_script(job));
   return 0;
@@ -161,50 +126,52 @@ int write_job(const RunArguments& arguments) {
   if (arguments.out) words.insert(words.end(), {"--out", *arguments.out});
   if (arguments.quiet) words.push_back("--quiet");
   if (arguments.resume) words.push_back("--resume");
-  go_on_as_ranks(*arguments.ranks, words);
+  exec_on_ranks(*arguments.ranks, words);
 }
 
 int run_scene(const RunArguments& given) {
   const RunArguments arguments = with_scene_of_folder(given);
   if (arguments.slurm && is_one_of_several_ranks())
-    throw ConfigError("--slurm writes one job, which starts mpirun itself: call it without mpirun");
+    throw ConfigError("--slurm: the job starts mpirun itself; call this command without mpirun");
   if (arguments.slurm) return write_job(arguments);
   if (arguments.ranks.value_or(1) > 1 && !is_one_of_several_ranks()) run_on_ranks(arguments);
   catch_interrupts();
-  return on_world_ranks([&](const Ranks* ranks) { return run_scene_on(ranks, arguments); });
+  return run_on_world_ranks([&](const Ranks* ranks) { return run_scene_on(ranks, arguments); });
 }
 
 void declare(RunArguments& arguments, CommandOptions& options) {
   declare_scene(arguments, options);
   options.value("--out", arguments.out, "Folder for the results; default out/<scene>.").type("DIR");
-  options.flag("--quiet", arguments.quiet, "No progress and no summary.");
+  options.flag("--quiet", arguments.quiet, "Print warnings and errors only.");
   options.flag("--force", arguments.force, "Replace an earlier result in the folder.");
-  options.flag("--yes", arguments.yes, "Also for a million frames, rows or load steps and more.");
+  options.flag("--yes", arguments.yes, "Allow a million frames, table rows or load steps and more.");
   options
       .flag("--resume", arguments.resume,
-            "Continue from the checkpoint in the folder, or start if there is no result yet. SCENE may be the folder.")
+            "Continue from the checkpoint in the folder, or start if there is none. SCENE may be the result folder.")
       .excludes("--force");
   options
       .flag("--estimate-error", arguments.estimate_error,
-            "Then repeat the run at rtol / 10 (or half the fixed step) and print the difference.")
+            "Estimate the time integration error: repeat the run at rtol / 10 (or half the fixed step) and compare.")
       .excludes("--resume");
-  options.value("--slurm", arguments.slurm, "The run as a job of SLURM: print its script, or submit it.")
+  options.value("--slurm", arguments.slurm, "Print the script of a SLURM job that computes the scene, or submit it.")
       .choice({"print", "submit"});
   options
-      .value("--ranks", arguments.ranks, "Processes that compute the scene together, started by mpirun; default one.")
+      .value("--ranks", arguments.ranks,
+             "Number of MPI ranks that compute the scene together; starts mpirun. Default 1. Use for large meshes.")
       .range(1, 1'000'000);
 }
 
-const CommandRegistration run_command({.order = 10,
-                                       .name = "run",
-                                       .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
-                                       .examples = R"(
+const CommandRegistration run_command(
+    {.order = 10,
+     .name = "run",
+     .sentence = "Run a scene: writes frames for ParaView, energies and steps; prints a summary.",
+     .examples = R"(
   orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
   orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
   orthodyn run configs/scenes/cantilever.yaml --ranks 2
   orthodyn run mine.yaml --slurm --ranks 64 > job.sh; sbatch job.sh)",
-                                       .on_ranks = true},
-                                      declare, run_scene);
+     .on_ranks = true},
+    declare, run_scene);
 
 }  // namespace
 

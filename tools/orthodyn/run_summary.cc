@@ -5,25 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/digits.h"
+#include "lib/core/number_format.h"
+#include "lib/core/parse_number.h"
 #include "lib/core/spelling.h"
 #include "lib/simulation/error_estimate/error_balance.h"
 #include "lib/simulation/run/result_warnings.h"
-#include "tools/orthodyn/shortened.h"
 
 namespace orthodyn {
 
 namespace {
 
-// An error of a tenth of the motion: curves no longer lie over each other.
-constexpr double kUnresolved = 0.1;
+constexpr double kUnresolved = 0.1;  // error relative to the largest motion: curves differ visibly
 
-void print_cost(const char* name, const Cost& c, const char* what = "") {
-  fmt::print("  {:<15} {:6}{} x {:9.3f} ms = {:8.3f} s\n", name, c.count, what,
+void print_cost(const char* name, const Cost& c, const char* unit = "") {
+  fmt::print("  {:<15} {:6}{} x {:9.3f} ms = {:8.3f} s\n", name, c.count, unit,
              c.count ? 1e3 * c.seconds / static_cast<double>(c.count) : 0, c.seconds);
 }
 
-// Of the states that were looked at, where there are more of them than steps.
+// Prints the cost of outputs and events: per observed state if there are more states than steps, else per step.
 void print_observation(const RunResult& result, Cost cost) {
   long states = 0;
   if (const auto& energy = result.motion->energy) states = static_cast<long>(energy->states);
@@ -34,7 +33,7 @@ void print_observation(const RunResult& result, Cost cost) {
 }
 
 void print_costs(const RunResult& result) {
-  const Statistics& s = result.motion->effort.statistics;
+  const Statistics& s = result.motion->cost.statistics;
   fmt::print("  {:<15} {} ({} rejected), {}", "steps", s.steps, s.rejected_steps,
              counted(s.newton_iterations, "Newton iteration"));
   if (s.gauss_newton_fallbacks > 0)
@@ -57,7 +56,7 @@ void print_energy(const EnergySummary& energy) {
              energy.times == EnergyTimes::steps ? "over all steps" : "at the outputs");
 }
 
-// `width`: of the words before figures.
+// `width`: width of the first column.
 void print_errors(const RunResult& result, int width) {
   const auto errors = error_balance(result);
   if (!errors) return;
@@ -68,7 +67,8 @@ void print_errors(const RunResult& result, int width) {
                              : "",
              errors->advice.empty() ? "" : ": ", errors->advice);
   if (errors->probed_unknown)
-    fmt::print("  {:<{}} of stresses and strains at probes not known: finer elements were not used\n", "", width);
+    fmt::print("  {:<{}} of stresses and strains at probes unknown: only finer elements would estimate it\n", "",
+               width);
   for (const ProbedError& e : errors->probed)
     fmt::print("  {:<{}} {} of {} {:.1e}{} ({:.2g} % of its size), due to the mesh\n", "", width, e.field, e.probe,
                e.error, e.unit == "1" ? "" : " " + e.unit, 100 * e.share());
@@ -79,7 +79,7 @@ std::string three(const Vec3& v, const char* format) {
   return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
 }
 
-// With as many digits as the errors leave.
+// Three numbers, each with the digits that its error justifies.
 std::string three_known(const Vec3& v, const Vec3& error) {
   const auto number = [&](int i) { return known_digits(v[i], v[i] == 0 ? 0 : error[i] / v[i]); };
   return fmt::format("({}, {}, {})", number(0), number(1), number(2));
@@ -99,33 +99,34 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   const auto& outcome = result.outcome;
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", result.scene,
              motion.integrator, result.model.unknowns, status_word(outcome.status), outcome.last.t,
-             motion.effort.wall_seconds, motion.effort.cpu_seconds);
+             motion.cost.wall_seconds, motion.cost.cpu_seconds);
   if (!outcome.remark.empty()) fmt::print("  {}\n", outcome.remark);
   fmt::print("  {:<15} {}\n", "elasticity", result.model.elasticity);
   if (!result.model.kinematics.empty()) fmt::print("  {:<15} {}\n", "kinematics", result.model.kinematics);
-  for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, shortened(value));
+  for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, rounded_number(value));
   print_costs(result);
   if (motion.energy) print_energy(*motion.energy);
   if (motion.momentum && motion.momentum->angular_scale > 0)
     fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",
                motion.momentum->angular_drift / motion.momentum->angular_scale);
-  if (const auto& e = motion.accumulated)
+  if (const auto& e = motion.segment_error)
     fmt::print(
-        "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} part{} of {} steps against {} ({:.2f} "
-        "s)\n",
-        "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
+        "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} segment{} of {} steps against {} "
+        "({:.2f} s)\n",
+        "error", e->error, e->since, e->segments, e->segments == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
   print_errors(result, 15);
   print_extremes(result, false);
-  if (!motion.silent_events.empty()) fmt::print("  {:<15} never happened: {}\n", "events", join(motion.silent_events));
+  if (!motion.events_not_found.empty())
+    fmt::print("  {:<15} never happened: {}\n", "events", join(motion.events_not_found));
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
 }
 
-std::string what_turns(const CriticalPoint& turn) {
+std::string turning_point_text(const CriticalPoint& turn) {
   return fmt::format(
-      ": the body buckles there, or loses a support; its equilibria {} followed (statics.at_limit acts "
-      "at limit points and bifurcations only)",
+      ": the body buckles or loses a support; the equilibria {} followed beyond it (statics.at_limit acts at limit "
+      "points and bifurcations only)",
       turn.unstable ? "stay stable and were" : "were");
 }
 
@@ -137,35 +138,34 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
              counted(equilibrium.statistics.newton_iterations, "Newton iteration"));
   for (const CriticalPoint& point : equilibrium.critical_points)
     fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}{}\n", words_of(point.kind), point.load_factor,
-               point.uncertainty, point.kind == CriticalPoint::Kind::turn ? what_turns(point) : "");
+               point.uncertainty, point.kind == CriticalPoint::Kind::turn ? turning_point_text(point) : "");
   if (equilibrium.jumps > 0)
-    fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
+    fmt::print("  {:<20} {}, to a stable equilibrium of lower energy on another path\n", "jumps", equilibrium.jumps);
   if (equilibrium.unstable.value_or(0) > 0)
     fmt::print("  {:<20} the last equilibrium is unstable in {}\n", "stability",
                equilibrium.unsymmetric ? "an odd number of directions" : counted(*equilibrium.unstable, "direction"));
   else if (equilibrium.unsymmetric)
     fmt::print(
-        "  {:<20} by the sign of the determinant, for the stiffness is unsymmetric; growing vibrations (flutter) "
-        "are not looked for\n",
+        "  {:<20} judged by the sign of the determinant, since the stiffness is unsymmetric; growing vibrations "
+        "(flutter) are not detected\n",
         "stability");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
   if (!result.model.kinematics.empty()) fmt::print("  {:<20} {}\n", "kinematics", result.model.kinematics);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
-  fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
+  fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load component\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
   print_errors(result, 20);
   print_extremes(result, true);
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print(
-        "  {:<20} moved by {} m{}\n", probe, three_known(value, error),
-        error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}")) : "");
+    fmt::print("  {:<20} displacement {} m{}\n", probe, three_known(value, error),
+               error.allFinite() ? fmt::format(", mesh error about {} m", three(error, "{:.1e}")) : "");
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
 void print_buckling(const RunResult& result, const BucklingResult& buckling) {
   fmt::print("{}, buckling: {} unknowns, {} after {:.2f} s\n", result.scene, result.model.unknowns,
              status_word(result.outcome.status), result.outcome.wall_seconds);
-  if (!buckling.modes.empty()) fmt::print("  mode  load factor   by the mesh   residual\n");
+  if (!buckling.modes.empty()) fmt::print("  mode  load factor   mesh error    residual\n");
   for (std::size_t k = 0; k < buckling.modes.size(); ++k) {
     const auto& mode = buckling.modes[k];
     fmt::print("  {:4}  {:>11}  {:>12}   {:8.1e}\n", k + 1, known_digits(mode.load_factor, mode.mesh_error),
@@ -173,15 +173,15 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
   }
   if (std::ssize(buckling.modes) < buckling.wanted && !buckling.modes.empty())
     fmt::print(
-        "  {} of the {} modes asked for lie below load factor {:.4g}, at which linear statics reach a strain of "
-        "10 %: beyond it there are no buckling loads\n",
+        "  {} of the {} requested modes lie below load factor {:.4g}, where linear statics reach a strain of 10 %; "
+        "higher ones are no buckling loads\n",
         buckling.modes.size(), buckling.wanted, buckling.limit);
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
-void print_what_remains(const RunResult& result) {
+void print_how_to_continue(const RunResult& result) {
   if (result.outcome.status == Outcome::Status::interrupted)
-    fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
+    fmt::print(stderr, "interrupted at t = {:.6g} s; the results so far are in {}\n", result.outcome.last.t,
                result.folder.string());
   if (result.outcome.status != Outcome::Status::completed && result.resumable)
     fmt::print(stderr, "to continue: orthodyn run {} --resume{}\n", result.folder.string(),
@@ -190,19 +190,24 @@ void print_what_remains(const RunResult& result) {
 
 }  // namespace
 
+std::string rounded_number(const std::string& text) {
+  double value = 0;
+  return parse_number(std::string_view(text), value) ? fmt::format("{:.4g}", value) : text;
+}
+
 void print_result(const RunResult& result, bool quiet) {
   if (result.outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", result.outcome.message);
   if (result.equilibrium && !quiet) print_equilibrium(result, *result.equilibrium);
   if (result.buckling && !quiet) print_buckling(result, *result.buckling);
   if (result.motion && !quiet) print_motion(result, *result.motion);
   for (const auto& warning : result_warnings(result)) fmt::print(stderr, "warning: {}\n", warning);
-  if (result.motion) print_what_remains(result);
+  if (result.motion) print_how_to_continue(result);
 }
 
 void print_estimate(const RunResult& result) {
   const ErrorEstimate& error = *result.motion->error;
   if (!error.completed) {
-    fmt::print(stderr, "warning: no estimate of the error: the run with {} did not complete: {}\n", error.against,
+    fmt::print(stderr, "warning: no error estimate: the run with {} did not complete: {}\n", error.against,
                error.failure_reason);
     return;
   }
@@ -212,13 +217,13 @@ void print_estimate(const RunResult& result) {
   for (const auto& [name, e] : {std::pair{"displacement", error.displacement}, {"velocity", error.velocity}})
     fmt::print("    {:<13} {:>10.2g} {:>10.2g} {:>10.2g}\n", name, e.final, e.l2, e.max);
   const auto& u = error.displacement;
-  if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
+  if (std::isnan(u.max)) fmt::print("  nothing moves: there is no scale for the error\n");
   else
     fmt::print(
         "  integration error of displacements: about {:.2g} % of the largest, {:.2g} % at worst; of velocities {:.2g} "
         "%, {:.2g} % at worst{}\n",
         100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
-        u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
+        u.max > kUnresolved ? ". The motion is NOT resolved: reduce integrator.rtol or the step" : "");
   print_errors(result, 15);
 }
 

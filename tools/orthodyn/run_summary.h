@@ -1,14 +1,19 @@
-// What a run did, for the terminal: a table on stdout, what went wrong and what remains to be done on stderr.
+// Summary of a run for the terminal: results on stdout; errors, warnings and how to continue on stderr.
 #pragma once
+
+#include <string>
 
 #include "lib/simulation/run/run_result.h"
 
 namespace orthodyn {
 
-// `quiet`: only what went wrong and what remains.
+// `quiet`: prints only errors, warnings and how to continue.
 void print_result(const RunResult& result, bool quiet);
 
-// The estimate of the run's error, as a table, in a sentence, and beside the mesh's. Precondition: there is one.
+// Prints the estimated time integration error and the mesh error. Precondition: result.motion->error has a value.
 void print_estimate(const RunResult& result);
+
+// A number rounded to four digits; other text unchanged.
+std::string rounded_number(const std::string& text);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// The options of commands that take one scene, and the scene that they name.
+// Options and set-up of commands that take one scene.
 #pragma once
 
 #include <string>
@@ -16,15 +16,13 @@ struct SceneArguments {
 
 void declare_scene(SceneArguments& arguments, CommandOptions& options);
 
-// Reads, validates and builds; prints warnings to stderr. Throws ConfigError.
-Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes);
-
-// The same for what needs no `time`: a second is taken where the scene does not say, with a notice. Modes have no use
-// for it (`uses_time`).
 struct SetupOfAnyTime {
   Setup setup;
-  bool has_time;
+  bool has_time;  // false if the time span was assumed
 };
+
+// Reads, validates and builds a scene; prints warnings to stderr. If the scene has no `time`, assumes 1 s and prints a
+// notice. `uses_time`: whether to check inputs against the time span. Throws ConfigError.
 SetupOfAnyTime set_up_without_time(const std::string& scene, const SceneChanges& changes, bool uses_time = true);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// `orthodyn schema`: the input as JSON Schema (draft 7), by which editors complete and check YAML files.
+// `orthodyn schema`: prints the JSON Schema (draft 7) of the input, for editors.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace orthodyn {
 namespace {
 
 struct SchemaArguments {
-  std::string kind;  // of all kinds, if empty
+  std::string kind;  // all kinds if empty
 };
 
 using Schema = nlohmann::ordered_json;
 
-// A number and the name of a unit, which may begin with 1 ("3 1/s"). Whether the unit fits is left to orthodyn.
+// A number and a unit, which may begin with 1 ("3 1/s"). orthodyn itself checks whether the unit fits.
 constexpr const char* kQuantity = R"(^ *[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)? *(1/)?[^\s\d/*.^()+-]( ?[^\s\d]\d*)* *$)";
 
 Schema reference_to(const std::string& title) { return {{"$ref", "#/definitions/" + title}}; }
@@ -37,7 +37,7 @@ class SchemaWriter {
       if (key.required) required.push_back(key.name);
     }
     properties["include"] = include();
-    if (!required.empty()) {  // an included file may bring them
+    if (!required.empty()) {  // an included file may contain them
       out["if"] = {{"not", {{"required", {"include"}}}}};
       out["then"] = {{"required", required}};
     }
@@ -47,10 +47,12 @@ class SchemaWriter {
   const Schema& definitions() const { return definitions_; }
 
  private:
-  static Schema include() {
-    const Schema file = {{"type", "string"}};
-    return {{"description", "Files whose keys are included here; the section's own keys take precedence."},
-            {"anyOf", {file, {{"type", "array"}, {"items", file}}}}};
+  Schema include() {
+    return define("include", []() -> Schema {
+      const Schema file = {{"type", "string"}};
+      return {{"description", "Files whose keys are included here; the section's own keys take precedence."},
+              {"anyOf", {file, {{"type", "array"}, {"items", file}}}}};
+    });
   }
 
   Schema of_key(const Key& key) {
@@ -59,12 +61,12 @@ class SchemaWriter {
       out["default"] = fallback;
     else if (key.schema.kind == ValueSchema::Kind::word && !key.fallback.empty()) out["default"] = key.fallback;
     const Schema schema = key.required ? of(key.schema, key) : or_null(of(key.schema, key));
-    if (schema.contains("$ref")) out["allOf"] = {schema};  // draft 7 ignores what stands beside $ref
+    if (schema.contains("$ref")) out["allOf"] = {schema};  // draft 7 ignores siblings of $ref
     else out.update(schema);
     return out;
   }
 
-  // A null counts as a key that is not given.
+  // A null means that the key is not given.
   static Schema or_null(Schema schema) {
     const Schema null = {{"type", "null"}};
     if (schema.contains("$ref")) return {{"if", {{"not", null}}}, {"then", schema}};
@@ -114,11 +116,12 @@ class SchemaWriter {
     return out;
   }
 
-  static Schema quantity(const Key& key) {
+  Schema quantity(const Key& key) {
     Schema plain = number("number", key.range);
     if (key.unit.empty()) return plain;
     if (key.unit == "rad") plain = {{"const", 0}};
-    return {{"anyOf", {plain, {{"type", "string"}, {"pattern", kQuantity}}}}};
+    const Schema text = define("quantity", []() -> Schema { return {{"type", "string"}, {"pattern", kQuantity}}; });
+    return {{"anyOf", {plain, text}}};
   }
 
   Schema list(const ValueSchema& schema, const Key& key) {
@@ -139,7 +142,7 @@ class SchemaWriter {
     return {{"anyOf", all}};
   }
 
-  // By `type`, so that editors complete the keys of that type and complain about those alone.
+  // Conditional on `type`, so that editors complete and check the keys of that type only.
   Schema choice(const ValueSchema& schema, const Key& key) {
     const std::string usual = default_type(key);
     return define(schema.title + (usual.empty() ? "" : "Or" + usual), [&]() -> Schema {
@@ -153,7 +156,7 @@ class SchemaWriter {
         if (type == usual) cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}}, {"then", one}});
       }
       Schema out = {{"type", "object"}};
-      if (cases.empty()) return out;  // all kinds are users' own
+      if (cases.empty()) return out;  // all types come from plugins
       out["properties"] = {{"type", {{"enum", names}}}};
       out["allOf"] = cases;
       if (usual.empty()) out["anyOf"] = {{{"required", {"type"}}}, {{"required", {"include"}}}};
@@ -168,7 +171,7 @@ class SchemaWriter {
   }
 
   Schema definitions_ = Schema::object();
-  std::set<std::string> started_;  // before they are made: a section may hold itself
+  std::set<std::string> started_;  // inserted before the definition: a section may contain itself
 };
 
 Schema document(const std::vector<InputKind>& kinds) {
@@ -176,7 +179,7 @@ Schema document(const std::vector<InputKind>& kinds) {
   Schema body;
   if (kinds.size() == 1) {
     body = writer.section(kinds.front().keys);
-  } else {  // a study has one of these keys, a scene none
+  } else {  // told apart by a key that only this kind has
     const std::map<std::string, std::string> marks{
         {"comparison", "scenes"}, {"sweep", "quantities"}, {"stability", "cases"}};
     body = writer.section(kinds.front().keys);
@@ -199,7 +202,7 @@ std::vector<InputKind> chosen(const std::string& name) {
     names.push_back(kind.name);
   }
   if (name.empty()) return input_kinds();
-  throw ConfigError(fmt::format("there is no schema for '{}'; known: {}", name, join(names)));
+  throw ConfigError(fmt::format("no schema '{}'; known: {}", name, join(names)));
 }
 
 int print_schema(const SchemaArguments& arguments) {
@@ -208,13 +211,13 @@ int print_schema(const SchemaArguments& arguments) {
 }
 
 void declare(SchemaArguments& arguments, CommandOptions& options) {
-  options.value("kind", arguments.kind, "scene, comparison, sweep or stability; all in one schema if left out.");
+  options.value("kind", arguments.kind, "scene, comparison, sweep or stability; default: one schema for all.");
 }
 
 const CommandRegistration schema_command(
     {.order = 100,
      .name = "schema",
-     .sentence = "The JSON Schema of the input, for editors that complete and check YAML.",
+     .sentence = "Print the JSON Schema of the input, for editors that complete and check YAML.",
      .examples = R"(
   orthodyn schema scene > scene.json)"},
     declare, print_schema);

@@ -1,29 +1,43 @@
-// What scripts for SLURM have in common.
+// SLURM batch scripts: a run as a job, a sweep as a job array.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "lib/study/inputs/limits.h"
 
 namespace orthodyn {
 
-// The text itself, for a comment of a script. Throws ConfigError for control characters: what follows a line break
-// would be a command.
-const std::string& one_line(const std::string& text);
+// `orthodyn run` on one or several ranks.
+struct RunJob {
+  std::filesystem::path program, scene, folder;
+  std::vector<std::string> options;  // of `orthodyn run`, except --out and --resume
+  int ranks = 1, threads = 1;        // threads of each rank
+  bool resumes = false;              // continues from the checkpoint, so the script can be submitted again
+};
 
-// For a shell; for a line #SBATCH, which throws as one_line() does.
-std::string shell_quoted(const std::string& text);
-std::string sbatch_quoted(const std::string& text);
+// `orthodyn sweep`: each task of the array computes its share of the points.
+struct ArrayJob {
+  std::string program;
+  std::filesystem::path sweep, folder;
+  std::string name;
+  std::size_t points = 0, tasks = 0;
+  Limits limits;       // of a point
+  bool retry = false;  // recompute points that failed before
+  int ranks = 1;       // of a point
+};
 
-// The log beside the folder; SLURM takes a single '%' in it for a pattern.
-std::string log_beside(const std::filesystem::path& folder);
+// The text of a script. Both throw ConfigError if a name contains control characters, because text after a line break
+// would be run as a command.
+std::string run_script(const RunJob& job);
+std::string array_script(const ArrayJob& job);
 
-// A line that has the job load the plugins that are loaded here; empty without any.
-std::string exported_plugins();
-
-// What a command says; nothing if it fails.
-std::string output_of(const std::string& command);
-
-// Writes the script beside the folder and hands it to sbatch; the job's number. Throws RunError if it is not accepted.
+// Writes the script to <folder>.sbatch, submits it and returns the job's number. Throws RunError if sbatch fails.
 std::string submit_script(const std::filesystem::path& folder, const std::string& script);
+
+// Submits the array and a job that runs `sweep --collect` after it; prints their numbers. Throws RunError if sbatch
+// fails.
+void submit_array(const ArrayJob& job);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// `orthodyn stability`: a matrix of hard cases and integrators, graded by what each case expects.
+// `orthodyn stability`: grades integrators on hard cases by the cases' expectations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,10 +11,8 @@
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/stability_matrix.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/failure_summary.h"
-#include "tools/orthodyn/progress_reporter.h"
 #include "tools/orthodyn/study_command.h"
-#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_messages.h"
 
 namespace orthodyn::study::stability {
 
@@ -37,7 +35,7 @@ std::string symbol(const std::string& grade) {
   return symbols.at(grade);
 }
 
-// One table for each variant: a row a case, a column an integrator, which are numbered above it.
+// Prints a table for each variant: rows are cases, columns are integrators, which are numbered in a list above.
 class MatrixTable {
  public:
   explicit MatrixTable(const Json& matrix) : matrix_(matrix) {
@@ -50,7 +48,7 @@ class MatrixTable {
 
   void print() const {
     fmt::print("\n+ pass   o degraded   X fail   - refused by the integrator{}\n",
-               matrix_.at("complete").get<bool>() ? "" : "   ? not tried yet");
+               matrix_.at("complete").get<bool>() ? "" : "   ? not run yet");
     std::size_t column = 0;
     for (const auto& integrator : matrix_.at("integrators"))
       fmt::print("{:>3} {}\n", ++column, integrator.get<std::string>());
@@ -89,7 +87,7 @@ class MatrixTable {
 };
 
 int try_stability(const StudyArguments& arguments) {
-  use_one_thread_each();  // before fingerprints are taken, of which the number of threads is a part
+  use_one_thread_each();  // called first, because the number of threads is part of the fingerprints
   Stability stability = read_stability(Config::from_file(arguments.file));
   const fs::path out = folder_for(arguments, "out/stability", stability.name);
   StabilityMatrix matrix(std::move(stability), out);
@@ -112,26 +110,26 @@ int try_stability(const StudyArguments& arguments) {
   const std::size_t kept = arguments.retry ? 0 : number_at_limits(matrix.jobs());
   const bool complete = matrix.run(job_queue(arguments, worker_count(arguments)), after_each);
   const Json table = write_table();
-  if (!complete) tell_of_interrupt("trials", out);
+  if (!complete) print_interrupted("trials", out);
   if (!arguments.quiet) MatrixTable(table).print();
   show_report(out, arguments);
-  tell_of_kept_limits(kept);
+  print_kept_failures(kept);
   return complete ? 0 : 130;
 }
 
 void declare_stability(StudyArguments& arguments, CommandOptions& options) {
-  declare_study(arguments, options, {"cases", "Hard cases in YAML.", "stability", "stability", "trials"});
-  declare_jobs(arguments, options, "Trials");
+  declare_study(arguments, options, {"cases", "A list of hard cases in YAML.", "stability", "stability", "trials"});
+  declare_jobs(arguments, options, "trials");
 }
 
 const CommandRegistration stability_command(
     {.order = 60,
      .name = "stability",
      .sentence =
-         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run it again to continue.",
+         "Test integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run it again to continue.",
      .examples = R"(
   orthodyn stability configs/stability/hard_cases.yaml --jobs 2
-  orthodyn stability mine.yaml --retry         once more, with what failed)"},
+  orthodyn stability mine.yaml --retry         also repeat what failed)"},
     declare_stability, try_stability);
 
 }  // namespace

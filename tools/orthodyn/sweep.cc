@@ -1,4 +1,4 @@
-// `orthodyn sweep`: metrics of a scene over varied values, as a table and a report.
+// `orthodyn sweep`: metrics of a scene for varied parameters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,13 +13,11 @@
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/sweep_table.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/failure_summary.h"
-#include "tools/orthodyn/job_array.h"
 #include "tools/orthodyn/mpirun.h"
-#include "tools/orthodyn/point_warnings.h"
-#include "tools/orthodyn/progress_reporter.h"
+#include "tools/orthodyn/slurm.h"
 #include "tools/orthodyn/study_command.h"
-#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_messages.h"
+#include "tools/orthodyn/sweep_warnings.h"
 
 namespace orthodyn::study::sweep {
 
@@ -28,13 +26,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct SweepArguments : StudyArguments {
-  std::optional<std::string> task;   // "3/20": this part of the points only
+  std::optional<std::string> task;   // "3/20": the third of 20 parts of the points
   std::optional<std::string> slurm;  // "print" or "submit"
-  std::optional<std::size_t> tasks;  // of the array
+  std::optional<std::size_t> tasks;  // number of tasks of the array
   bool collect = false;
 };
 
-// "3/20": the third of twenty.
+// Reads "3/20" as {3, 20}.
 std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
   std::size_t part = 0, parts = 0;
   char slash = 0, end = 0;
@@ -50,7 +48,7 @@ const T* value_of(const Named<T>& list, const std::string& name) {
   return found == list.end() ? nullptr : &found->second;
 }
 
-// In the unit that the sweep asks for, else in SI.
+// The metrics in the units given in the sweep, else in SI.
 std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
   if (result.failure) return "failed: " + result.failure->reason;
   std::vector<std::string> words;
@@ -69,12 +67,13 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
   return join(words);
 }
 
-// Before its points are made.
-const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
+// Throws ConfigError for too many points and for metrics that cannot be computed on several ranks.
+const Sweep& checked(const Sweep& sweep, const StudyArguments& arguments) {
   require_ranks(arguments);
   for (const auto& [name, metric] : sweep.quantities)
     if (arguments.ranks > 1 && !metric.is_of_motion())
-      metric.origin.fail("natural frequencies and buckling loads are computed by one process: remove it, or --ranks");
+      metric.origin.fail(
+          "natural frequencies and buckling loads are computed by one process only: remove this quantity or --ranks");
   require_usual_number(arguments, number_of_points(sweep));
   return sweep;
 }
@@ -91,15 +90,15 @@ class SweepCommand {
   explicit SweepCommand(const SweepArguments& arguments)
       : arguments_(arguments),
         sweep_(read_with_warnings(arguments.file)),
-        points_(expand(asked_for(sweep_, arguments))),
+        points_(expand(checked(sweep_, arguments))),
         folder_(folder_for(arguments, "out/sweeps", sweep_.name)),
         jobs_(jobs_of(sweep_, points_, folder_, arguments.ranks)),
         work_(distinct(jobs_)) {}
 
   int execute() {
     if (arguments_.slurm) {
-      warn_of_impossible_points();
-      SlipTeller().tell(first_scene(sweep_));
+      warn_of_impossible_points(points_);
+      InputWarningPrinter().print(first_scene(sweep_));
       return write_array();
     }
     if (arguments_.task) {
@@ -107,30 +106,30 @@ class SweepCommand {
       work_ = slice(work_, part, parts);
     }
     const bool alone = !arguments_.task && !arguments_.collect;
-    const StudyFolder place(folder_, "sweep", arguments_.file, alone ? Sharing::alone : Sharing::with_its_like);
-    warn_of_impossible_points();
-    if (!arguments_.task && !arguments_.collect) SlipTeller().tell(first_scene(sweep_));
+    const StudyFolder place(folder_, "sweep", arguments_.file, alone ? Sharing::exclusive : Sharing::shared);
+    warn_of_impossible_points(points_);
+    if (!arguments_.task && !arguments_.collect) InputWarningPrinter().print(first_scene(sweep_));
     if (!arguments_.task) results_ = results_of(work_);
     if (arguments_.collect) return collect();
     use_one_thread_each();
     const std::size_t kept = arguments_.retry ? 0 : number_at_limits(work_);
     const bool complete = run_jobs();
-    if (!complete) tell_of_interrupt("points", folder_);
+    if (!complete) print_interrupted("points", folder_);
     if (!arguments_.task) show();
     const FailureSummary failures = arguments_.task ? failures_of_task() : failures_of_points();
     failures.print();
-    tell_of_kept_limits(kept);
+    print_kept_failures(kept);
     if (!complete) return 130;
-    return arguments_.task ? 0 : failures.exit_code();  // of a task the others may know more
+    return arguments_.task ? 0 : failures.exit_code();  // other tasks may succeed
   }
 
  private:
   int write_array() const {
-    fs::create_directories(fs::absolute(folder_).parent_path());  // where tasks leave their log
+    fs::create_directories(fs::absolute(folder_).parent_path());  // for the log of the tasks
     std::size_t tasks = arguments_.tasks.value_or(std::min<std::size_t>(work_.size(), 1000));
     if (tasks > work_.size()) {
       tasks = work_.size();
-      fmt::print(stderr, "{0} points make {0} tasks, not {1}\n", tasks, *arguments_.tasks);
+      fmt::print(stderr, "notice: {0} points need only {0} tasks, not {1}\n", tasks, *arguments_.tasks);
     }
     const ArrayJob job{this_program().string(),
                        fs::absolute(arguments_.file),
@@ -141,8 +140,8 @@ class SweepCommand {
                        sweep_.limits,
                        arguments_.retry,
                        arguments_.ranks};
-    if (*arguments_.slurm == "submit") return submit(job);
-    fmt::print("{}", array_script(job));
+    if (*arguments_.slurm == "submit") submit_array(job);
+    else fmt::print("{}", array_script(job));
     return 0;
   }
 
@@ -154,13 +153,13 @@ class SweepCommand {
                                  const EvaluationResult& evaluated = results_[work_[i].folder] =
                                      evaluation_from(result);
                                  reporter.report(work_.size(), work_[i].title, outcome_of(evaluated, sweep_), cached);
-                                 if (!arguments_.task) write_table_now_and_then();
+                                 if (!arguments_.task) write_table_if_due();
                                }};
     return job_queue(arguments_, worker_count(arguments_)).run(work_, events);
   }
 
-  // It takes at most a tenth of the time, however many points there are.
-  void write_table_now_and_then() {
+  // Writes the table at most every 2 s, and so rarely that writing takes at most a tenth of the time.
+  void write_table_if_due() {
     using Clock = std::chrono::steady_clock;
     const auto started = Clock::now();
     if (started < next_table_) return;
@@ -177,12 +176,12 @@ class SweepCommand {
   }
 
   void show() const {
-    tell_warnings_of_points(write_table());
+    warn_of_finished_points(write_table());
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
     show_report(folder_, arguments_);
   }
 
-  // But for those that cannot be, which were told of before.
+  // Leaves out impossible points, which were reported before the run.
   FailureSummary failures_of_points() const {
     FailureSummary failures;
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -213,42 +212,37 @@ class SweepCommand {
     fmt::print(stderr, "{} of {} points are missing:\n", missing.size(), points_.size());
     for (std::size_t i = 0; i < std::min(missing.size(), kListed); ++i) fmt::print(stderr, "  {}\n", missing[i]);
     if (missing.size() > kListed) fmt::print(stderr, "  ...\n");
-    fmt::print(stderr, "to compute them, run the same command without --collect, or submit the array again\n");
+    fmt::print(stderr, "to compute them, run the command without --collect or submit the array again\n");
     return 3;
-  }
-
-  void warn_of_impossible_points() const {
-    std::size_t count = 0;
-    for (const auto& point : points_)
-      if (!point.impossible.empty() && ++count == 1)
-        fmt::print(stderr, "warning: {} cannot be computed: {}\n", point.title, point.impossible);
-    if (count > 1) fmt::print(stderr, "warning: the same is true of {} more points\n", count - 1);
   }
 
   const SweepArguments& arguments_;
   Sweep sweep_;
   std::vector<Point> points_;
   fs::path folder_;
-  std::vector<std::optional<Job>> jobs_;  // by point
-  std::vector<Job> work_;                 // what this command does
+  std::vector<std::optional<Job>> jobs_;  // by point; none for impossible points
+  std::vector<Job> work_;                 // jobs of this command
   Results results_;                       // so far
   std::chrono::steady_clock::time_point next_table_;
 };
 
 void declare(SweepArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
-  declare_jobs(arguments, options, "Points");
+  declare_jobs(arguments, options, "points");
   declare_ranks(arguments, options, "point");
   declare_yes(arguments, options);
-  options.value("--task", arguments.task, "Compute only the I-th of N parts of the points; for job arrays.")
+  options.value("--task", arguments.task, "Compute only the I-th of N parts of the points; used in job arrays.")
       .type("I/N");
-  options.value("--slurm", arguments.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")
+  options
+      .value("--slurm", arguments.slurm, "Print the script of a SLURM job array that computes the sweep, or submit it.")
       .choice({"print", "submit"})
       .excludes("--task");
-  options.value("--tasks", arguments.tasks, "Tasks of the array; default one per point, up to 1000.")
+  options.value("--tasks", arguments.tasks, "Number of tasks of the array; default: one per point, at most 1000.")
       .range(1, 1000000)
       .needs("--slurm");
-  options.flag("--collect", arguments.collect, "Join the finished points, and list the missing ones.")
+  options
+      .flag("--collect", arguments.collect,
+            "Write tables and report from the finished points, and list the missing ones; after a job array.")
       .excludes("--task")
       .excludes("--slurm")
       .excludes("--retry");
@@ -259,11 +253,11 @@ int sweep(const SweepArguments& arguments) { return SweepCommand(arguments).exec
 const CommandRegistration sweep_command(
     {.order = 50,
      .name = "sweep",
-     .sentence = "Metrics of a scene over varied values, as a report, CSV and JSON. Run it again to continue.",
+     .sentence = "Compute metrics of a scene for varied parameters: report, CSV and JSON. Run it again to continue.",
      .examples = R"(
   orthodyn sweep configs/sweeps/grain_angle.yaml
   orthodyn sweep mine.yaml --slurm --tasks 100 > array.sh; sbatch array.sh
-  orthodyn sweep mine.yaml --collect           join what the tasks have done)"},
+  orthodyn sweep mine.yaml --collect           after the array: tables and report)"},
     declare, sweep);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `orthodyn verify`: scenes with known metrics, as a table of targets and what was computed.
+// `orthodyn verify`: runs scenes and compares results with their expectations.
 #include "lib/study/quantities/verify.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include "lib/simulation/run/scene_file.h"
 #include "lib/simulation/run/setup.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/print_nothrow.h"
 
 namespace orthodyn::study {
 
@@ -27,7 +27,7 @@ struct VerifyArguments {
 
 std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
 
-// How wide the columns of names must be.
+// Column widths.
 struct Widths {
   std::size_t name = 4, quantity = 8;
 };
@@ -56,9 +56,9 @@ struct Cases {
   std::vector<CaseResult> unreadable;
 };
 
-// The result of a case that is at fault; what is wrong is said at once.
+// The result of a case with an input error. Prints the error.
 CaseResult unreadable(const std::string& file, const ConfigError& error) {
-  print_notice(fmt::format("error: {}\n", error.what()));
+  print_nothrow(fmt::format("error: {}\n", error.what()));
   CaseResult result{file, {}, {}};
   result.outcome.status = Outcome::Status::failed;
   result.outcome.message = error.what();
@@ -68,7 +68,7 @@ CaseResult unreadable(const std::string& file, const ConfigError& error) {
 void read_case(const std::string& file, const SceneChanges& changes, Cases& cases) {
   Config config = read_scene_file(file, changes);
   const Setup setup = set_up(config);
-  for (const auto& warning : setup.built.warnings) print_notice(fmt::format("warning: {}\n", warning));
+  for (const auto& warning : setup.built.warnings) print_nothrow(fmt::format("warning: {}\n", warning));
   const Scene& scene = setup.scene;
   require_expectations(scene, config);
   cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
@@ -76,7 +76,7 @@ void read_case(const std::string& file, const SceneChanges& changes, Cases& case
   cases.configs.push_back(std::move(config));
 }
 
-// Read and built before anything runs: a typing error in the last file must not wait for the others.
+// Reads and builds all cases before the first run, so that an error in the last file is found early.
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
   for (const auto& place : arguments.places) {
@@ -97,7 +97,7 @@ Cases read_cases(const VerifyArguments& arguments) {
 
 int verify_cases(const VerifyArguments& arguments) {
   const auto [configs, widths, faulty] = read_cases(arguments);
-  if (arguments.junit) write_file(*arguments.junit, {junit_xml({})});  // if it cannot be written, say so now
+  if (arguments.junit) write_file(*arguments.junit, {junit_xml({})});  // throws here if the file cannot be written
   if (!configs.empty()) print_head(widths);
   std::vector<CaseResult> results = faulty;
   std::size_t missed = 0;
@@ -112,24 +112,26 @@ int verify_cases(const VerifyArguments& arguments) {
   fmt::print("{} of {} cases pass ({:.1f} s)", configs.size() - missed, configs.size(), seconds);
   if (!faulty.empty()) fmt::print("; {} could not be read", faulty.size());
   fmt::print("\n");
-  if (missed) fmt::print("if another integrator (--integrator NAME) computes the same, suspect the expectation\n");
+  if (missed)
+    fmt::print(
+        "run again with another integrator (--integrator NAME): if it computes the same, check the expectation\n");
   if (!faulty.empty()) return 2;
   return missed == 0 ? 0 : 1;
 }
 
 void declare(VerifyArguments& arguments, CommandOptions& options) {
-  options.list("places", arguments.places, "Scenes with an 'expect' list, or folders of them.")
+  options.list("places", arguments.places, "Scenes with an 'expect' list, or folders of such scenes.")
       .required()
       .type("DIR|FILE");
-  options.value("--junit", arguments.junit, "Also write the results as JUnit XML.").type("FILE");
-  options.repeated("--set", arguments.changes.set, "Change a value in every case by its path.").type("PATH=VALUE");
-  options.value("--integrator", arguments.changes.integrator, "Short for --set integrator.type=NAME.");
+  options.value("--junit", arguments.junit, "Also write the results as JUnit XML, for CI servers.").type("FILE");
+  options.repeated("--set", arguments.changes.set, "Change a value of every scene by its path.").type("PATH=VALUE");
+  options.value("--integrator", arguments.changes.integrator, "Run every scene with this integrator.");
 }
 
 const CommandRegistration verify_command(
     {.order = 70,
      .name = "verify",
-     .sentence = "Run scenes that expect known metrics, and compare: exit code 1 on a miss, 2 if a file is at fault.",
+     .sentence = "Run scenes and check their expectations: exit code 1 if one is missed, 2 for errors in a file.",
      .examples = R"(
   orthodyn verify configs/cases
   orthodyn verify mine.yaml --integrator tr_bdf2)"},

@@ -1,4 +1,4 @@
-// `orthodyn view`: results as a page with a 3D view. The drawing tool takes this process's place.
+// `orthodyn view`: makes an HTML page with a 3D view, by replacing this process with the drawing tool.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ namespace {
 struct ViewArguments {
   std::vector<std::string> results;
   std::optional<std::string> out, fields, color, png;
-  std::optional<std::string> every, time, scale, size;  // the drawing tool reads them
+  std::optional<std::string> every, time, scale, size;  // text: parsed by the drawing tool
   bool volume = false;
 };
 
@@ -45,7 +45,8 @@ std::vector<std::string> for_draw(const ViewArguments& arguments) {
 
 int view(const ViewArguments& arguments) {
   std::vector<std::string> words = for_draw(arguments);
-  if (!fs::exists(draw_tool())) throw RunError(draw_tool().string() + ": the drawing tool is not there");
+  if (!fs::exists(draw_tool()))
+    throw RunError(draw_tool().string() + ": the drawing tool is missing; install orthodyn with its folder share");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -56,35 +57,43 @@ int view(const ViewArguments& arguments) {
 void declare(ViewArguments& arguments, CommandOptions& options) {
   options
       .list("result", arguments.results,
-            "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers "
-            "all.")
+            "Result folders of run, modes, sweep, compare or stability. Two are shown side by side; of more, the page "
+            "lets you choose.")
       .type("RESULT")
       .required();
-  options.value("--out", arguments.out, "The page; default RESULT/view.html.").type("FILE");
-  options.flag("--volume", arguments.volume, "Also what is inside, for the clip plane; a larger page.");
-  options.value("--fields", arguments.fields, "These fields only; default all but material axes.").type("F1,F2,...");
-  options.value("--every", arguments.every, "Every K-th frame, and the last; default 1.").type("K");
-  options.value("--time", arguments.time, "Begins at the frame nearest to T seconds.").type("T");
-  options.value("--color", arguments.color, "Begins with this colour, as `draw frame --help` has them.")
+  options.value("--out", arguments.out, "HTML file to write; default RESULT/view.html.").type("FILE");
+  options.flag("--volume", arguments.volume,
+               "Include the interior of the body, for cuts with the clip plane. Makes the page larger.");
+  options
+      .value("--fields", arguments.fields,
+             "Include only these fields, for a smaller page; default: all but material axes.")
+      .type("F1,F2,...");
+  options.value("--every", arguments.every, "Include every K-th frame and the last one, for a smaller page; default 1.")
+      .type("K");
+  options.value("--time", arguments.time, "Open the page at the frame nearest to T seconds.").type("T");
+  options.value("--color", arguments.color, "Open the page coloured by this field (see `draw frame --help`).")
       .type("FIELD[.COMPONENT]");
   options
       .value("--scale", arguments.scale,
-             "Enlarges deflections S times; default 1, or as much as shows one below 2 % of the body.")
+             "Magnify displacements S times; default 1, or more if they are below 2 % of the body's size.")
       .type("S");
-  options.value("--png", arguments.png, "A still in place of the page; needs Chromium.").type("FILE");
-  options.value("--size", arguments.size, "Pixels of the still; default 1600x1000.").type("WxH").needs("--png");
+  options.value("--png", arguments.png, "Write a picture instead of the page; needs Chromium.").type("FILE");
+  options.value("--size", arguments.size, "Size of the picture in pixels; default 1600x1000.")
+      .type("WxH")
+      .needs("--png");
 }
 
-const CommandRegistration view_command({.order = 15,
-                                        .name = "view",
-                                        .sentence = "Results as an HTML page with a 3D view: one, or two side by side.",
-                                        .examples = R"(
+const CommandRegistration view_command(
+    {.order = 15,
+     .name = "view",
+     .sentence = "Make an HTML page with a 3D view of results, one or two side by side.",
+     .examples = R"(
   orthodyn view out/cantilever                            out/cantilever/view.html, opens offline
   orthodyn view out/cantilever --volume --time 0.13
-  orthodyn view out/comparisons/free_flight               each run beside the reference, and how far apart they are
+  orthodyn view out/comparisons/free_flight               each run beside the reference, with their distance
   orthodyn view out/coarse out/fine --out out/both.html   side by side, one camera
   orthodyn view out/cantilever --png tip.png --color nodal_stress_material.11)"},
-                                       declare, view);
+    declare, view);
 
 }  // namespace
 

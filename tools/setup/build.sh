@@ -1,9 +1,9 @@
 # shellcheck shell=bash
-# Configuring and building with the presets, and running the tests. Needs steps.sh.
+# Configures and builds presets, and runs the tests. Needs steps.sh.
 
 readonly MEGABYTES_PER_JOB=1500
 
-# What the compiler may use: the machine's free memory, less if a container's limit is lower.
+# Memory for the compiler: the free memory of the machine, or the limit of the container if that is lower.
 available_megabytes() {
   local limit=/sys/fs/cgroup/memory.max
   {
@@ -21,7 +21,7 @@ build_jobs() {
   printf '%d' $((by_memory < processors ? by_memory : processors))
 }
 
-# configure NAME PRESET [CMAKE ARGUMENTS]: shows warnings, of which the log holds all.
+# configure NAME PRESET [CMAKE ARGUMENTS]: shows the warnings; the log has the complete output.
 configure() {
   local name=$1
   shift
@@ -36,7 +36,7 @@ build() {
   logged "build-$name" cmake --build "build/$name" --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(build_jobs)}" "$@"
 }
 
-# run_tests NAME [CTEST ARGUMENTS]: the tests of build/NAME. Without a terminal, what passed is not listed.
+# run_tests NAME [CTEST ARGUMENTS]: runs the tests of build/NAME. Without a terminal, passed tests are not listed.
 run_tests() {
   local command=(ctest --test-dir "build/$1" --output-on-failure -j2 "${@:2}")
   if [[ -t 1 ]]; then

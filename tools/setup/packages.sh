@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# The Debian packages of packages.txt and other lists: which are missing, and their installation. Needs steps.sh.
+# Finds and installs missing Debian packages of packages.txt and other lists. Needs steps.sh.
 
 listed_packages() { awk '!/^#/ && NF {print $1}' "$@"; }
 
@@ -16,16 +16,16 @@ missing_packages() {
   done
 }
 
-# ensure_packages [LISTS]: leaves all packages of packages.txt and of the lists installed, or fails and says what to do.
+# ensure_packages [LISTS]: installs missing packages of packages.txt and of the lists, or fails with the command to do so.
 ensure_packages() {
   local missing lists=(tools/setup/packages.txt "$@")
   if ! command -v dpkg-query >/dev/null; then
-    say "not a Debian system; the libraries of ${lists[*]} are taken to be there"
+    say "not a Debian system; the libraries of ${lists[*]} are assumed to be installed"
     return
   fi
   mapfile -t missing < <(missing_packages "${lists[@]}")
   if ((${#missing[@]} == 0)); then
-    say "all packages are there"
+    say "all packages are installed"
   elif ((EUID == 0)); then
     install_packages "${missing[@]}"
   else
@@ -35,7 +35,7 @@ sudo apt-get update && sudo apt-get install -y --no-install-recommends ${missing
 }
 
 install_packages() {
-  # The lists of a fresh system are empty, those of an old one point to files that are gone.
+  # Package lists are empty on a new system and outdated on an old one.
   say "missing: $*"
   logged apt-update apt_get update
   logged apt-install apt_get install -y --no-install-recommends "$@"
@@ -43,7 +43,7 @@ install_packages() {
 
 apt_get() {
   local options=(-o DPkg::Lock::Timeout=300)
-  # A machine that is thrown away needs no fsync after every file: half the time.
+  # On a temporary machine, no fsync after every file: half the time.
   if [[ -n ${CI:-} ]]; then options+=(-o DPkg::Options::=--force-unsafe-io); fi
   DEBIAN_FRONTEND=noninteractive apt-get "${options[@]}" "$@"
 }

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# How the commands report what they do: headings, times, logs. To be sourced, in the project's root.
+# Progress reports of the commands: headings, times, logs. Source it in the root of the project.
 
 fail() {
   printf 'error: %s\n' "$*" >&2
@@ -12,7 +12,7 @@ duration() {
   if (($1 < 60)); then printf '%d s' "$1"; else printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); fi
 }
 
-# step HEADING COMMAND...: runs the command below a heading and says how long it took.
+# step HEADING COMMAND...: prints the heading, runs the command, prints its duration.
 step() {
   local heading=$1 begin=$SECONDS
   shift
@@ -21,7 +21,7 @@ step() {
   say "done in $(duration $((SECONDS - begin)))"
 }
 
-# logged NAME COMMAND...: the output goes to build/log/NAME.log; only if the command fails is its end shown.
+# logged NAME COMMAND...: writes the output to build/log/NAME.log, and prints its end if the command fails.
 # The command runs in the foreground so that Ctrl-C reaches it.
 logged() {
   local log=build/log/${1//\//-}.log status=0 watcher
@@ -36,10 +36,10 @@ logged() {
   clear_line
   if ((status == 0)); then return; fi
   tail -n 40 "$log" >&2
-  fail "'$*' ended with status $status; everything it said is in $log"
+  fail "'$*' ended with status $status; the complete output is in $log"
 }
 
-# Shows the last line of a log every second in place, or every half minute where there is no terminal.
+# Shows the last line of a log: every second in place, or every half minute without a terminal.
 watch_log() {
   local begin=$SECONDS shown=0 passed
   while sleep 1 && kill -0 $$ 2>/dev/null; do
@@ -56,7 +56,7 @@ watch_log() {
 
 progress() { printf '%s  %.60s' "$(duration "$1")" "$(last_action "$2")"; }
 
-# The last line of a log; of a build's, the last "[3/64] file.cc.o", which warnings may follow.
+# The last line of a log; for a build, the last "[3/64] file.cc.o", even if warnings follow.
 last_action() {
   awk '
     /^\[[0-9]+\/[0-9]+\]/ {count = split($NF, part, "/"); action = $1 " " part[count]; is_build = 1}

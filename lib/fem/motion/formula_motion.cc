@@ -1,29 +1,53 @@
-#include "lib/fem/motion/formula_motion.h"
+// A motion given by three formulas of the displacement, u(t, X). Velocity and acceleration are computed by finite
+// differences of order eight and seven (differences.h), without points beyond a kink or before the start.
+#include "lib/fem/motion/motion.h"
 
 namespace orthodyn {
 
-FormulaMotion::FormulaMotion(std::array<TimePointFormula, 3> displacement, DifferenceStep step,
-                             std::vector<double> kinks, double start)
-    : u_(std::move(displacement)), step_(std::move(step)), kinks_(std::move(kinks)), limits_(kinks_) {
-  limits_.push_back(start);
-}
+namespace {
 
-Moved FormulaMotion::at(double t, const NodalVector& X) const {
-  const double step = step_.at(t);
-  Moved out{NodalVector(3, X.cols()), NodalVector(3, X.cols()), NodalVector(3, X.cols())};
-  for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    const Vec3 rest = X.col(i);
-    const auto u = [&](double time) { return Vec3(u_[0].at(time, rest), u_[1].at(time, rest), u_[2].at(time, rest)); };
-    const Differences<Vec3> d = smooth_differences<Vec3>(u, t, step, limits_);
-    out.u.col(i) = u(t);
-    out.v.col(i) = d.first;
-    out.a.col(i) = d.second;
+class FormulaMotion : public Motion {
+ public:
+  FormulaMotion(std::array<TimePointFormula, 3> displacement, DifferenceStep step, std::vector<double> kinks,
+                double start)
+      : u_(std::move(displacement)), step_(std::move(step)), kinks_(std::move(kinks)), limits_(kinks_) {
+    limits_.push_back(start);
   }
-  return out;
-}
 
-StepLimits FormulaMotion::step_limits(double start, double end, const NodalVector& X) const {
-  return step_limits_of(u_, start, end, kinks_, X);
+  Moved at(double t, const NodalVector& X) const override {
+    const double step = step_.at(t);
+    Moved out{NodalVector(3, X.cols()), NodalVector(3, X.cols()), NodalVector(3, X.cols())};
+    for (Eigen::Index i = 0; i < X.cols(); ++i) {
+      const Vec3 rest = X.col(i);
+      const auto u = [&](double time) {
+        return Vec3(u_[0].at(time, rest), u_[1].at(time, rest), u_[2].at(time, rest));
+      };
+      const Differences<Vec3> d = smooth_differences<Vec3>(u, t, step, limits_);
+      out.u.col(i) = u(t);
+      out.v.col(i) = d.first;
+      out.a.col(i) = d.second;
+    }
+    return out;
+  }
+
+  std::vector<double> kinks() const override { return kinks_; }
+  bool has_continuous_velocity() const override { return kinks_.empty(); }
+
+  StepLimits step_limits(double start, double end, const NodalVector& X) const override {
+    return step_limits_of(u_, start, end, kinks_, X);
+  }
+
+ private:
+  std::array<TimePointFormula, 3> u_;
+  DifferenceStep step_;
+  std::vector<double> kinks_, limits_;  // limits_: kinks and start, which differences do not cross
+};
+
+}  // namespace
+
+std::shared_ptr<const Motion> formula_motion(std::array<TimePointFormula, 3> displacement, DifferenceStep step,
+                                             std::vector<double> kinks, double start) {
+  return std::make_shared<FormulaMotion>(std::move(displacement), std::move(step), std::move(kinks), start);
 }
 
 StepLimits step_limits_of(const std::array<TimePointFormula, 3>& displacement, double start, double end,

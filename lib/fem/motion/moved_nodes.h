@@ -1,5 +1,5 @@
-// The nodes whose motion is prescribed. They are no part of the system: it sees their displacements and
-// velocities through the forces of elements and, with a consistent mass, their accelerations.
+// The nodes with prescribed motion. They are not unknowns. Their displacements and velocities enter element forces.
+// With a consistent mass, their accelerations enter the inertia of free nodes.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ class MovedNodes {
     std::array<bool, 3> components;  // which coordinates are moved
   };
 
-  // rest: the positions of all nodes.
+  // `rest`: positions of all nodes at rest, m.
   MovedNodes(std::vector<Part> parts, const NodalVector& rest);
 
-  // Overwrites the moved coordinates.
+  // Sets the moved coordinates of u (m) and v (m/s) at time t.
   void place(double t, NodalVector& u, NodalVector& v) const;
-  // Zero for all others; m/s^2.
+  // Accelerations of all nodes, m/s^2; zero for coordinates that are not moved.
   NodalVector accelerations(double t) const;
   std::size_t num_coordinates() const;
   std::vector<double> breakpoints(double start, double end) const;
@@ -31,7 +31,7 @@ class MovedNodes {
 
  private:
   std::vector<Part> parts_;
-  std::vector<NodalVector> rest_;  // of each part's nodes
+  std::vector<NodalVector> rest_;  // per part: positions of its nodes at rest, m
   Eigen::Index num_nodes_;
 };
 

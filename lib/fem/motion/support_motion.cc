@@ -1,9 +1,5 @@
 #include "lib/fem/motion/support_motion.h"
 
-#include "lib/fem/differences.h"
-#include "lib/fem/motion/formula_motion.h"
-#include "lib/fem/motion/rigid_motion.h"
-
 namespace orthodyn {
 
 const Spec<Rotation>& Rotation::spec() {
@@ -22,15 +18,13 @@ const Spec<Rotation>& Rotation::spec() {
 
 namespace {
 
-// A translation along coordinates that stay free would be lost without a word.
+// Refuses a translation along free components only, which would have no effect.
 void check_translation(const SupportMotion& m, const Config& config) {
   if (!m.translation || m.translation->isZero(0)) return;
   for (const Component c : m.components)
     if ((*m.translation)[static_cast<int>(c)] != 0) return;
   config.at("translation")
-      .fail(
-          "moves nothing: its parts along the chosen components are zero; add those that it "
-          "is to move to 'components'");
+      .fail("moves nothing: it is zero along the chosen components; add the components that it moves to 'components'");
 }
 
 void check_motion(const SupportMotion& m, const Config& config) {
@@ -40,10 +34,12 @@ void check_motion(const SupportMotion& m, const Config& config) {
   if (rigid == m.displacement.has_value())
     config.fail("give either translation and rotation (one or both), or three formulas as displacement");
   if (rigid && !m.factor)
-    config.fail("key 'factor' is missing: how the motion goes in time, such as factor: {type: smooth_step, end: 1}");
-  if (!rigid && m.factor) config.at("factor").fail("goes with translation and rotation; a formula has its own t");
-  if (rigid && !m.kinks.empty()) config.at("kinks").fail("goes with displacement; a factor knows its own");
-  if (rigid && m.resolution) config.at("resolution").fail("goes with displacement; a factor has exact rates");
+    config.fail("key 'factor' is missing: give the time function, such as factor: {type: smooth_step, end: 1}");
+  if (!rigid && m.factor)
+    config.at("factor").fail("is used with translation and rotation only; use t in the displacement formulas");
+  if (rigid && !m.kinks.empty())
+    config.at("kinks").fail("is used with displacement only; the factor has its own kinks");
+  if (rigid && m.resolution) config.at("resolution").fail("is used with displacement only; the factor has exact rates");
   check_translation(m, config);
 }
 
@@ -54,18 +50,17 @@ const Spec<SupportMotion>& SupportMotion::spec() {
       selection_spec<SupportMotion>()
           .key("name", &SupportMotion::name, "Name of its reaction; default motion_1, motion_2 and so on.")
           .key("components", &SupportMotion::components, "Which coordinates are moved; the others stay free.")
-          .key("translation", &SupportMotion::translation, "At factor 1.", {.unit = "m"})
-          .key("rotation", &SupportMotion::rotation, "About an axis.")
-          .key("factor", &SupportMotion::factor, "Factor of translation and angle in time.")
+          .key("translation", &SupportMotion::translation, "Translation at factor 1.", {.unit = "m"})
+          .key("rotation", &SupportMotion::rotation, "Rotation about an axis.")
+          .key("factor", &SupportMotion::factor, "Time function that multiplies translation and angle.")
           .key("displacement", &SupportMotion::displacement,
                "Displacement from the rest position, in m: three formulas of the time t and the rest position x, y, z.")
           .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
                {.unit = "s"})
-          .key(
-              "resolution", &SupportMotion::resolution,
-              "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
-              "period, or less; default by what they do in the time span.",
-              {.unit = "s", .range = kPositive})
+          .key("resolution", &SupportMotion::resolution,
+               "Step of the finite differences for velocity and acceleration: at most 1/60 of the shortest period of "
+               "the formulas; default: chosen from the formulas' course over the time span.",
+               {.unit = "s", .range = kPositive})
           .check(check_motion);
   return s;
 }
@@ -79,12 +74,12 @@ std::shared_ptr<const Motion> SupportMotion::motion(double start, double end, co
   if (displacement) {
     DifferenceStep step = resolution ? DifferenceStep(*resolution)
                                      : DifferenceStep(step_limits_of(*displacement, start, end, kinks, X), start, end);
-    return std::make_shared<FormulaMotion>(*displacement, std::move(step), kinks, start);
+    return formula_motion(*displacement, std::move(step), kinks, start);
   }
   const Rotation turn = rotation.value_or(Rotation{});
   const auto resolved = factor->over(start, end);
-  return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(),
-                                       turn.angle, resolved ? resolved : factor);
+  return rigid_motion(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(), turn.angle,
+                      resolved ? resolved : factor);
 }
 
 }  // namespace orthodyn

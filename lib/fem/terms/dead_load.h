@@ -1,4 +1,4 @@
-// Forces on nodes that keep their direction: f_i = factor(t) F_i.
+// Dead forces on nodes i, with fixed directions: f_i = factor(t) F_i.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,8 @@ namespace orthodyn {
 
 class DeadLoad : public Term {
  public:
-  // forces: N, at factor 1. `amount` stands in the description before their sum: "4 nodes".
+  // `forces`: nodal forces F_i (N) at factor 1. `amount`: text before the total force in description(), such as "4
+  // nodes".
   DeadLoad(std::string name, NodalForces forces, std::shared_ptr<const TimeFunction> factor, std::string amount = "");
 
   std::string name() const override { return name_; }
@@ -36,7 +37,7 @@ class DeadLoad : public Term {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-// The traits of a model with a load that has this factor in time.
+// Sets the traits of a model with a load that has this factor in time.
 void declare_load(const TimeFunction& factor, Traits& traits);
 
 }  // namespace orthodyn

@@ -2,71 +2,91 @@
 //
 //     f_a = - sum over points p of V_p P(F_p, dF_p/dt) grad N_a(p),
 //
-// with the first Piola-Kirchhoff stress P (Pa) of the region's law (lib/element). Made by ElementType::elastic_term.
-// Elements are numbered k in [0, size()). Functions are const, hold no state and may run at the same time on different
-// outputs. All throw RecoverableError where a deformation gradient is not finite.
+// with the volume V_p of point p, the shape functions N_a, and the first Piola-Kirchhoff stress P (Pa) of the region's
+// law (lib/element). Made by ElementType::elastic_term(). Elements are numbered k in [0, size()). Thread-safe for
+// different output arguments. Except with linear kinematics, forces, tangents, energies and observations throw
+// RecoverableError if a deformation gradient is not finite.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/element/observation.h"
-#include "lib/fem/elastic_region.h"
+#include "lib/fem/element_axes.h"
 #include "lib/fem/term.h"
+#include "lib/fem/terms/elasticity_options.h"
+#include "lib/material/stiffness.h"
+#include "lib/material/strength.h"
 
 namespace orthodyn {
+
+// A region of a mesh with its elastic constants and axes; the input of ElementType::elastic_term().
+struct ElasticRegion {
+  std::string name;
+  std::vector<int> cells;  // indices in the mesh; may be empty on a rank
+  Stiffness stiffness;     // Pa, in material axes
+  ElementAxes axes;        // of `cells`, in their order
+  double beta = 0;         // s, stiffness-proportional damping; 0 for none
+  ElasticityOptions options;
+  std::optional<Strength> strength = {};  // empty if the material has no strengths
+  std::vector<int> numbers = {};          // indices of `cells` in the whole mesh; empty with one rank
+  int elements = 0;                       // number of the region's elements on all ranks
+};
 
 class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
-  // What it was made from.
+  // The region that the term was made for: elements, constants, axes and options.
   virtual const ElasticRegion& definition() const = 0;
   const std::string& region() const { return definition().name; }
+  Mat6 stiffness() const {
+    return voigt(definition().stiffness);
+  }  // Pa, in material axes; component order of stiffness.h
 
-  // The law in words, e.g. "corotational, exact gradient".
+  // Description of the law, such as "corotational, exact gradient".
   virtual std::string law() const = 0;
 
-  // False for the warped force: then there is no discrete gradient.
+  // False for the warped force, which has no discrete gradient either.
   virtual bool has_energy() const = 0;
 
-  // The number of elements, and the index of element k in the mesh.
+  // Number of elements on this rank, and index of element k in the whole mesh.
   virtual int size() const = 0;
   virtual int cell(int k) const = 0;
 
-  // What can be seen at the mean deformation gradient of an element.
+  // Strain, stress and axes of element k, for its mean deformation gradient.
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
 
-  // At one of the points where the law is evaluated.
+  // Number of integration points per element, and strain, stress and axes at one of them.
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
 
-  // The strains that are observed at all points, in Voigt form with engineering shear: a column each, those of an
-  // element beside each other. Far cheaper than one by one.
+  // PointObservation::strain at all points in Voigt form with engineering shear, one column per point, element by
+  // element. Much faster than observe_point().
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const = 0;
 
-  // The largest norm of Green's strain (F^T F - I)/2 at all points: far cheaper than what is observed.
+  // Largest norm of Green's strain (F^T F - I)/2 over all points. Much faster than strains().
   virtual double largest_green_strain(const NodalState& s) const = 0;
 
-  // The same point at rest: material axes (columns), and in them sym(grad u) of a small displacement u (m).
+  // At a point of the undeformed element: material axes (columns), and sym(grad u) in these axes for a small
+  // displacement u (m).
   virtual Mat3 axes_at_rest(int k, int point) const = 0;
   virtual Mat3 small_strain(int k, int point, const NodalVector& u) const = 0;
 
-  // Pa, in material axes, in the order of stiffness.h.
-  virtual Mat6 stiffness() const = 0;
-
-  // The smallest of the element's points; not positive where it is inverted.
+  // Smallest det F over the points of element k; not positive if the element is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;
 
-  // The element where that is smallest, to round-off: far cheaper than to ask for each. Infinite, of element -1, where
-  // none is a number.
+  // Smallest det_F() of all elements, to round-off, and the number of its element; infinity and -1 if all values are
+  // NaN. Much faster than det_F() for each element.
   struct SmallestDetF {
     double value;
     int element;
   };
   virtual SmallestDetF smallest_det_F(const NodalState& s) const = 0;
 
-  // Upper bound of the squared angular frequency of any element about rest with lumped masses, 1/s^2;
-  // density in kg/m^3. Critical steps of explicit schemes are 2 / omega.
+  // Upper bound of the squared angular frequency of an element about rest with lumped masses, 1/s^2; density in kg/m^3.
+  // The critical time step of central differences is at least 2 / sqrt(result).
   virtual double max_frequency_squared(double density) const = 0;
 };
 

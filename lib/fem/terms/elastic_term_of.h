@@ -1,5 +1,5 @@
-// Elasticity compiled for one element E and one law of lib/element: forces and tangents in batches of elements, groups
-// of which are worked on in parallel.
+// Elastic term compiled for one element type E and one law of lib/element. Forces and tangents are computed in batches
+// of elements, and groups of batches in parallel.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,9 +11,7 @@
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/fem/batch_loops.h"
-#include "lib/fem/elastic_region.h"
-#include "lib/fem/element_batches.h"
-#include "lib/fem/element_stiffness.h"
+#include "lib/fem/element_assembly.h"
 #include "lib/fem/terms/elastic_term.h"
 
 namespace orthodyn {
@@ -25,18 +23,17 @@ class ElasticTermOf final : public ElasticTerm {
   ElasticTermOf(const ElementMesh& mesh, ElasticRegion region, const Law& law, const BlockPattern& pattern)
       : region_(std::move(region)),
         law_(law),
-        pattern_(pattern),
         elements_(mesh, region_.cells, region_.axes),
+        assembly_(elements_, pattern),
         loops_(mesh, region_.cells) {
-    offsets_.reserve(region_.cells.size());
-    for (int k = 0; k < size(); ++k) {
-      offsets_.emplace_back(elements_.nodes(k), pattern);
-      if constexpr (E::kPoints > 1) {
+    if constexpr (E::kPoints > 1)
+      for (int k = 0; k < size(); ++k) {
         const int cell = region_.cells[static_cast<std::size_t>(k)];
         note_volume(k, mesh.positions(static_cast<std::size_t>(cell)));
       }
-    }
   }
+  ElasticTermOf(const ElasticTermOf&) = delete;  // assembly_ refers to elements_
+  ElasticTermOf& operator=(const ElasticTermOf&) = delete;
 
   std::string name() const override { return "elasticity of region " + region_.name; }
 
@@ -49,7 +46,7 @@ class ElasticTermOf final : public ElasticTerm {
   std::string law() const override { return Law::kName; }
 
   std::size_t bytes() const override {
-    return elements_.bytes() + axes().bytes() + offsets_.capacity() * sizeof(Offsets) +
+    return elements_.bytes() + axes().bytes() + assembly_.bytes() +
            (region_.cells.capacity() + region_.numbers.capacity()) * sizeof(int);
   }
 
@@ -89,7 +86,7 @@ class ElasticTermOf final : public ElasticTerm {
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
     if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
       loops_.for_each_element([&](int k) {
-        add_element(k, K, [&](int p) {
+        assembly_.add_element(k, K, [&](int p) {
           return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
         });
       });
@@ -146,11 +143,8 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double largest_green_strain(const NodalState& s) const override {
-    const auto smallest = loops_.smallest([&](int b) {
-      double largest = 0;
-      for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
-      return -largest;
-    });
+    const auto smallest =
+        loops_.smallest([&](int b) { return batch_minimum(b, [&](int p) { return -green_squares(b, p, s); }); });
     return smallest.batch < 0 ? 0 : 0.5 * std::sqrt(-smallest.value);
   }
 
@@ -159,7 +153,6 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   Mat3 axes_at_rest(int k, int p) const override { return axes().of(k, p); }
-  Mat6 stiffness() const override { return voigt(region_.stiffness); }
 
   double det_F(int k, const NodalState& s) const override {
     double smallest = std::numeric_limits<double>::infinity();
@@ -170,7 +163,8 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   SmallestDetF smallest_det_F(const NodalState& s) const override {
-    const auto batch = loops_.smallest([&](int b) { return smallest_determinant(b, s); });
+    const auto batch =
+        loops_.smallest([&](int b) { return batch_minimum(b, [&](int p) { return determinants(b, p, s); }); });
     SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
     if (batch.batch < 0) return smallest;
     loops_.for_each_of(batch.batch, [&](int k) {
@@ -184,10 +178,11 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double max_frequency_squared(double density) const override {
-    // With G = (G_1, G_2, ...) of a point and masses rho V s_a, its share V_p G^T C G of the stiffness has against the
-    // share V_p / V of the mass the largest eigenvalue of C^(1/2) (sum G_a G_a^T / s_a) C^(1/2) / rho. The quotient of
-    // the sums is no larger than the largest of these, times sum V_p / V where edges are curved.
-    const Mat6 root = Mat6(Eigen::LLT<Mat6>(voigt(region_.stiffness)).matrixL());
+    // Point p of an element has the stiffness V_p G^T C G with G = (G_1, G_2, ...) of strain_gram(), and node a the
+    // mass rho V_p s_a. With C = L L^T, the largest eigenvalue of this pair is that of L^T (sum_a G_a G_a^T / s_a) L /
+    // rho. The Rayleigh quotient of the element's sums over points is at most the largest of these eigenvalues, times
+    // (sum_p V_p) / V if edges are curved.
+    const Mat6 root = Mat6(Eigen::LLT<Mat6>(stiffness()).matrixL());
     double largest = 0;
     for (int k = 0; k < size(); ++k)
       for (int p = 0; p < E::kPoints; ++p) {
@@ -198,14 +193,13 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
  private:
-  using Offsets = ElementOffsets<E::kNodes>;
   using Form = typename Law::Form;
 
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
-  // Of |F^T F - I|^2.
-  ORTHODYN_FLATTEN double largest_square(int b, int p, const NodalState& s) const {
+  // |F^T F - I|^2 (Frobenius norm) of a batch at one point.
+  ORTHODYN_FLATTEN Batch green_squares(int b, int p, const NodalState& s) const {
     const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
     Batch square(0);
     for (int i = 0; i < 3; ++i)
@@ -214,16 +208,15 @@ class ElasticTermOf final : public ElasticTerm {
         for (int k = 0; k < 3; ++k) e = e + F(k, i) * F(k, j);
         square = square + e * e;
       }
-    double largest = 0;
-    for (int l = 0; l < elements_.lanes(b); ++l) largest = std::max(largest, square[l]);
-    return largest;
+    return square;
   }
 
-  // Of the elements of a batch, at all points; infinite where none is a number.
-  double smallest_determinant(int b, const NodalState& s) const {
+  // Minimum of of_point(p) over the points and elements of a batch; infinite if all are NaN.
+  template <class OfPoint>
+  double batch_minimum(int b, OfPoint&& of_point) const {
     double smallest = std::numeric_limits<double>::infinity();
     for (int p = 0; p < E::kPoints; ++p) {
-      const Batch all = determinants(b, p, s);
+      const Batch all = of_point(p);
       for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, all[l]);
     }
     return smallest;
@@ -242,7 +235,8 @@ class ElasticTermOf final : public ElasticTerm {
     });
   }
 
-  // The volume integral of a density given at a point of whole batches and, where those fail, of elements.
+  // Volume integral of a density. of_batch(b, p, good) gives it for a batch, of_element(k, p) for the elements of a
+  // batch whose lanes are not all good.
   template <class OfBatch, class OfElement>
   double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
     return loops_.sum([&](int b) {
@@ -258,7 +252,7 @@ class ElasticTermOf final : public ElasticTerm {
     });
   }
 
-  // The volume's mean of H, times the mean axes.
+  // Mean of H over the element's volume, times the mean axes.
   Mat3 mean_gradient(int k, const NodalVector& u) const {
     if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, u);
     Mat3 sum = Mat3::Zero();
@@ -276,30 +270,21 @@ class ElasticTermOf final : public ElasticTerm {
     volume_excess_ = std::max(volume_excess_, sum / E::mass(X, 1));
   }
 
-  // Adds the stiffness of one element, from the forms at its points.
-  template <class FormAt>
-  void add_element(int k, double* values, FormAt&& form_at) const {
-    ElementBlocks<E::kNodes> blocks;
-    for (int p = 0; p < E::kPoints; ++p)
-      add_point_stiffness<E::kNodes>(form_at(p), elements_.point(k, p), pattern_.symmetric(), p == 0, blocks);
-    complete<E::kNodes>(pattern_.symmetric(), blocks);
-    scatter_element(k, blocks, values);
-  }
-
   void add_element_tangent(int k, const NodalState& s, TangentKind kind, double* K, double* D) const {
     const auto form_at = [&](int p, Form* damping) {
       return law_.tangent(elements_.gradient(k, p, s.u), axes().of(k, p), kind, region_.beta, damping);
     };
     if (D)
-      add_element(k, D, [&](int p) {
+      assembly_.add_element(k, D, [&](int p) {
         Form damping;
         form_at(p, &damping);
         return damping;
       });
-    add_element(k, K, [&](int p) { return form_at(p, nullptr); });
+    assembly_.add_element(k, K, [&](int p) { return form_at(p, nullptr); });
   }
 
-  // False, and nothing is added, if the batch has an inverted or degenerate element, or the law no batches.
+  // Returns false and adds nothing if an element of the batch is inverted or degenerate, or the law has no batch
+  // version.
   bool add_batch_tangent(int b, const NodalState& s, TangentKind kind, double* K, double* D) const {
     if constexpr (requires { typename Law::BatchForm; }) {
       ElementBlocks<E::kNodes, Batch> stiffness, damping;
@@ -310,38 +295,18 @@ class ElasticTermOf final : public ElasticTerm {
                                              D ? &damping_form : nullptr, good);
         if (!all(good)) return false;
         const auto points = elements_.points(b, p);
-        add_point_stiffness<E::kNodes>(form, points, pattern_.symmetric(), p == 0, stiffness);
-        if (D) add_point_stiffness<E::kNodes>(damping_form, points, pattern_.symmetric(), p == 0, damping);
+        add_point_stiffness<E::kNodes>(form, points, assembly_.symmetric(), p == 0, stiffness);
+        if (D) add_point_stiffness<E::kNodes>(damping_form, points, assembly_.symmetric(), p == 0, damping);
       }
-      scatter_batch(b, stiffness, K);
-      if (D) scatter_batch(b, damping, D);
+      assembly_.add_batch(b, stiffness, K);
+      if (D) assembly_.add_batch(b, damping, D);
       return true;
     } else {
       return false;
     }
   }
 
-  void scatter_batch(int b, ElementBlocks<E::kNodes, Batch>& blocks, double* values) const {
-    complete<E::kNodes>(pattern_.symmetric(), blocks);
-    for (int l = 0; l < elements_.lanes(b); ++l) {
-      const int k = b * Batch::kLanes + l;
-      const auto nodes = elements_.nodes(k);
-      const auto is_free = [&](int node) { return pattern_.is_free(node); };
-      if (pattern_.symmetric() && std::all_of(nodes.begin(), nodes.end(), is_free)) {
-        scatter_lane<E::kNodes>(blocks, l, nodes, offsets_[static_cast<std::size_t>(k)], pattern_, values);
-      } else {
-        ElementBlocks<E::kNodes> one;
-        take_lane<E::kNodes>(blocks, pattern_.symmetric(), l, one);
-        scatter_element(k, one, values);
-      }
-    }
-  }
-
-  void scatter_element(int k, const ElementBlocks<E::kNodes>& blocks, double* values) const {
-    scatter<E::kNodes>(blocks, elements_.nodes(k), offsets_[static_cast<std::size_t>(k)], pattern_, values);
-  }
-
-  // For batches with an inverted or degenerate element.
+  // Fallback for batches with an inverted or degenerate element.
   void add_forces_one_by_one(int batch, int p, const NodalState& s, NodalVector& f) const {
     loops_.for_each_of(batch, [&](int k) {
       Mat3 rate;
@@ -362,11 +327,10 @@ class ElasticTermOf final : public ElasticTerm {
 
   ElasticRegion region_;
   Law law_;
-  const BlockPattern& pattern_;
   ElementBatches<E> elements_;
+  ElementAssembly<E> assembly_;
   BatchLoops loops_;
-  std::vector<Offsets> offsets_;
-  double volume_excess_ = 1;  // the largest ratio of the points' volumes to the element's
+  double volume_excess_ = 1;  // max over elements of (sum of the points' volumes) / volume
 };
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// Uniform gravity: f_i = m_i g with the row sums m_i of the mass matrix, so that free fall is uniform; energy
-// - sum m_i g . u_i.
+// Uniform gravity: f_i = m_i g, where m_i are the row sums of the mass matrix, so that free fall is uniform. The energy
+// is -sum_i m_i g . u_i.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,14 +11,14 @@ namespace orthodyn {
 
 class Gravity : public Term {
  public:
-  // nodal_masses in kg; they must outlive the term. `mass`: of the whole body.
+  // `nodal_masses` (kg) must outlive the term. `mass`: mass of the whole body, kg.
   Gravity(const Vec3& g, const Vector& nodal_masses, double mass) : g_(g), masses_(nodal_masses), mass_(mass) {}
 
   std::string name() const override { return "gravity"; }
   std::string description() const override {
     return fmt::format("gravity: {} m/s^2 on {:.6g} kg", Value<Vec3>::yaml(g_), mass_);
   }
-  // Its masses are this rank's already.
+  // The copy is enough: the nodal masses already belong to this rank.
   std::unique_ptr<Term> part(const Subdomain&) const override { return std::make_unique<Gravity>(*this); }
   bool is_dead() const override { return true; }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }

@@ -1,76 +1,105 @@
-#include "lib/fem/terms/ground_contact.h"
-
+// Frictionless contact with a rigid plane by a smooth penalty. A node at position x has the depth d = (point - x) . n
+// below the plane with normal n. With its surface area A and the stiffness k (Pa/m), its energy is k A psi(d), with
+//   psi'(d) = 0 for d <= 0,  d^2/(2 w) for 0 < d < w,  d - w/2 for d >= w.
+// The force is k A psi'(d) n, the stiffness k A psi''(d) n n^T. The contact stiffness builds up over the depth w. The
+// mean force between two states takes the mean of psi' over the depths between them. Without damping, the plane returns
+// all energy.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/block_pattern.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 #include "lib/mesh/selection.h"
 
 namespace orthodyn {
-
 namespace {
 
-// psi(d) and its derivatives.
+struct GroundPlane {
+  Vec3 point = Vec3::Zero(), normal{0, 0, 1};  // m; unit vector away from the ground
+  double stiffness = 0;                        // Pa/m
+  double onset = 0;                            // w, m
+};
+
+// The functions psi(d), psi'(d) and psi''(d).
 double penalty(double d, double w) { return d <= 0 ? 0 : d < w ? d * d * d / (6 * w) : d * (d - w) / 2 + w * w / 6; }
 double slope(double d, double w) { return d <= 0 ? 0 : d < w ? d * d / (2 * w) : d - w / 2; }
 double curvature(double d, double w) { return d <= 0 ? 0 : d < w ? d / w : 1; }
 
-// The mean of psi' from a to b. Simpson's rule is exact where psi' is one polynomial, and serves over a way so short
-// that the quotient would have no digits.
+// Mean of psi' over [a, b]. Simpson's rule is exact if psi' is a single polynomial in [a, b]. It also replaces the
+// difference quotient for short intervals, where the quotient has large round-off.
 double mean_slope(double a, double b, double w) {
   const bool one_piece = std::max(a, b) <= 0 || std::min(a, b) >= w || (std::min(a, b) >= 0 && std::max(a, b) <= w);
   if (one_piece || std::abs(b - a) < 1e-6 * w) return (slope(a, w) + 4 * slope((a + b) / 2, w) + slope(b, w)) / 6;
   return (penalty(b, w) - penalty(a, w)) / (b - a);
 }
 
-}  // namespace
+class GroundContact : public Term {
+ public:
+  // `areas`: pairs of a node and its surface area (m^2). The pattern must outlive the term.
+  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, const BlockPattern& pattern)
+      : plane_(plane), areas_(std::move(areas)), pattern_(pattern) {}
 
-std::string GroundContact::description() const {
-  return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
-}
+  std::string name() const override { return "ground"; }
 
-void GroundContact::add_force(const NodalState& s, NodalVector& f) const {
-  for (const auto& [node, area] : areas_)
-    if (const double d = depth(node, s.x); d > 0)
-      f.col(node) += plane_.stiffness * area * slope(d, plane_.onset) * plane_.normal;
-}
-
-void GroundContact::add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
-  for (const auto& [node, area] : areas_) {
-    const double mean = mean_slope(depth(node, s0.x), depth(node, s1.x), plane_.onset);
-    if (mean > 0) f.col(node) += plane_.stiffness * area * mean * plane_.normal;
+  std::string description() const override {
+    return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
   }
-}
 
-void GroundContact::add_tangent(const NodalState& s, TangentKind, double* stiffness, double*) const {
-  const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
-  for (const auto& [node, area] : areas_)
-    if (const double d = depth(node, s.x); d > 0)
-      pattern_.add(node, node, pattern_.offset(node, node), area * curvature(d, plane_.onset) * across, stiffness);
-}
+  std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
+    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), pattern_);
+  }
+  std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
 
-double GroundContact::energy(const NodalState& s) const {
-  double sum = 0;
-  for (const auto& [node, area] : areas_) sum += area * penalty(depth(node, s.x), plane_.onset);
-  return plane_.stiffness * sum;
-}
+  void add_force(const NodalState& s, NodalVector& f) const override {
+    for (const auto& [node, area] : areas_)
+      if (const double d = depth(node, s.x); d > 0)
+        f.col(node) += plane_.stiffness * area * slope(d, plane_.onset) * plane_.normal;
+  }
 
-void GroundContact::add_stiffness_bound(Vector& row_sums) const {
-  for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
-}
+  void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
+    for (const auto& [node, area] : areas_) {
+      const double mean = mean_slope(depth(node, s0.x), depth(node, s1.x), plane_.onset);
+      if (mean > 0) f.col(node) += plane_.stiffness * area * mean * plane_.normal;
+    }
+  }
 
-double GroundContact::contact_stiffness() const {
-  double largest = 0;
-  for (const auto& [node, area] : areas_) largest = std::max(largest, area);
-  return plane_.stiffness * largest;
-}
+  void add_tangent(const NodalState& s, TangentKind, double* stiffness, double*) const override {
+    const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
+    for (const auto& [node, area] : areas_)
+      if (const double d = depth(node, s.x); d > 0)
+        pattern_.add(node, node, pattern_.offset(node, node), area * curvature(d, plane_.onset) * across, stiffness);
+  }
 
-namespace {
+  EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
-constexpr double kUsualOnset = 1e-3;  // of the mesh's diagonal
+  double energy(const NodalState& s) const override {
+    double sum = 0;
+    for (const auto& [node, area] : areas_) sum += area * penalty(depth(node, s.x), plane_.onset);
+    return plane_.stiffness * sum;
+  }
+
+  void add_stiffness_bound(Vector& row_sums) const override {
+    for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
+  }
+
+  double contact_stiffness() const override {
+    double largest = 0;
+    for (const auto& [node, area] : areas_) largest = std::max(largest, area);
+    return plane_.stiffness * largest;
+  }
+
+ private:
+  double depth(int node, const NodalVector& x) const { return plane_.normal.dot(plane_.point - x.col(node)); }
+
+  GroundPlane plane_;
+  std::vector<std::pair<int, double>> areas_;
+  const BlockPattern& pattern_;
+};
+
+constexpr double kUsualOnset = 1e-3;  // default onset, relative to the mesh's diagonal
 
 class GroundContactChoice : public TermChoice {
  public:
@@ -84,7 +113,7 @@ class GroundContactChoice : public TermChoice {
                  {.required = true, .unit = "Pa/m", .range = kPositive})
             .key("onset", &G::onset_, "Depth over which contact sets in; default 1e-3 of the mesh's diagonal.",
                  {.unit = "m", .range = kPositive})
-            .key("surface", &G::surface_, "Which surface can touch it: a named one; default the whole outer surface.")
+            .key("surface", &G::surface_, "The surface that can touch the plane; default the whole outer surface.")
             .check([](const G& ground, const Config& config) {
               if (ground.normal_.norm() == 0) config.at("normal").fail("is zero; give a direction");
             });

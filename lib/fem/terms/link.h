@@ -1,30 +1,33 @@
-// A connection of a node with another node or with a point of the ground, and how a force along it and its
-// derivative enter the nodal forces and the matrix.
+// A connection of a node with another node or with a fixed point, and the assembly of its force and stiffness.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/subdomain.h"
+#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 
 struct Link {
   int a = 0;
   int b = -1;                  // -1: the ground
-  Vec3 anchor = Vec3::Zero();  // m; of the ground
+  Vec3 anchor = Vec3::Zero();  // m; used if b is -1
 
-  // From the other end to node a, m; and how it changes by displacements u, m, or velocities, m/s.
+  // Vector from the other end to node a (m), and the change of this vector for displacements (m), or its rate for
+  // velocities (m/s).
   Vec3 span(const NodalVector& x) const { return x.col(a) - (b < 0 ? anchor : Vec3(x.col(b))); }
   Vec3 change(const NodalVector& u) const { return b < 0 ? Vec3(u.col(a)) : Vec3(u.col(a) - u.col(b)); }
 
-  // `force` on node a, its opposite on the other end.
+  // Adds `force` to node a and its opposite to the other end.
   void add_force(const Vec3& force, NodalVector& f) const {
     f.col(a) += force;
     if (b >= 0) f.col(b) -= force;
   }
 
-  // The symmetric -d force/d span: blocks +, +, -, -.
+  // Adds the symmetric matrix `block` = -d force / d span, with sign + to the diagonal blocks and - to the others.
   void add_block(const Mat3& block, const BlockPattern& pattern, double* values) const {
     pattern.add(a, a, pattern.offset(a, a), block, values);
     if (b < 0) return;
@@ -33,14 +36,14 @@ struct Link {
     if (!pattern.symmetric() || b > a) pattern.add(b, a, pattern.offset(b, a), -block, values);
   }
 
-  // Adds to each node the row sum of the matrix that belongs to a stiffness k, N/m.
+  // Adds the bounds of Term::add_stiffness_bound() for a spring of stiffness k (N/m).
   void add_row_sum(double k, Vector& sums) const {
     sums[a] += b < 0 ? k : 2 * k;
     if (b >= 0) sums[b] += 2 * k;
   }
 };
 
-// Those whose node a this rank owns, by the numbers of nodes here.
+// The links whose node a this rank owns, in local node numbers.
 template <class L>
 std::vector<L> owned_links(const std::vector<L>& links, const Subdomain& subdomain) {
   std::vector<L> own;
@@ -51,6 +54,27 @@ std::vector<L> owned_links(const std::vector<L>& links, const Subdomain& subdoma
     own.push_back(link);
   }
   return own;
+}
+
+// Input of springs and dashpots: two nodes, or selected nodes that are tied to the ground.
+struct Ends : Selection {
+  std::optional<std::array<Vec3, 2>> between;  // m; the nodes nearest to two points
+  std::optional<Vec3> anchor;                  // m; default: each node's own rest position
+
+  // Whether each node is tied to its own rest position by a link of length zero.
+  bool in_place() const { return !between && !anchor; }
+  // The links of the body; at least one.
+  std::vector<Link> links(const TetMesh& mesh) const;
+  NodePairs couplings(const TetMesh& mesh) const;
+  void check(const Config& config) const;
+};
+
+template <class T>
+Spec<T> ends_spec() {
+  return selection_spec<T>()
+      .key("between", &T::between, "In place of selected nodes: the two nodes nearest to these points.", {.unit = "m"})
+      .key("anchor", &T::anchor, "Fixed point that selected nodes are tied to; default: each node's own rest position.",
+           {.unit = "m"});
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// An entry of a scene's list `loads`: a dead traction on a surface, which may depend on the position, or a total force
-// that is spread evenly over it.
+// An entry of the list `loads`: either a dead traction on a surface, which may depend on the rest position, or a total
+// force that is spread evenly over the surface.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/config/point_quantity.h"
+#include "lib/config/formula.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/time_functions/time_function.h"
 
@@ -16,7 +16,7 @@ namespace orthodyn {
 struct Load : TermChoice {
   std::string surface;
   std::optional<std::array<PointQuantity, 3>> traction;  // Pa, per undeformed area
-  std::optional<Vec3> force;                             // N in total
+  std::optional<Vec3> force;                             // total, N
   std::shared_ptr<const TimeFunction> factor;
   SourceLocation origin;
   static const Spec<Load>& spec();

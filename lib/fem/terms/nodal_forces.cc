@@ -1,4 +1,4 @@
-// The term `nodal_forces`: dead forces on nodes from a CSV file, by the number or the place of each.
+// The term `nodal_forces`: dead forces on nodes from a CSV file, with nodes given by index or position.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,11 +29,11 @@ class NodalForcesChoice : public TermChoice {
     static const auto s =
         Spec<N>()
             .key("file", &N::file_,
-                 "CSV with the columns node,fx,fy,fz (index of the node from 0, N) or x,y,z,fx,fy,fz (place of the "
-                 "node at rest in m); relative to the scene.",
+                 "CSV with the columns node,fx,fy,fz (node index from 0, forces in N) or x,y,z,fx,fy,fz (rest position "
+                 "of the node in m). The path is relative to the scene.",
                  {.required = true})
             .key("tolerance", &N::tolerance_,
-                 "How far a place may be from its node; default 1e-6 of the mesh's diagonal.",
+                 "Largest distance from a position x,y,z to its node; default 1e-6 of the mesh's diagonal.",
                  {.unit = "m", .range = kNonNegative})
             .key("factor", &N::factor_, "Factor in time.", {.fallback = "{type: constant}"});
     return s;
@@ -78,7 +78,7 @@ class NodalForcesChoice : public TermChoice {
       throw ConfigError(table.path,
                         "found the columns " + join(table.names, ",") + "; give node,fx,fy,fz or x,y,z,fx,fy,fz");
     if (count == 0 && tolerance_)
-      origin.fail("tolerance goes with the columns x,y,z, and " + table.path + " has node; remove it");
+      origin.fail("tolerance is used with the columns x,y,z only, but " + table.path + " has node; remove tolerance");
     return count > 0;
   }
 
@@ -96,7 +96,7 @@ class NodalForcesChoice : public TermChoice {
     const int nearest = nearest_node(mesh, place);
     const Vec3& there = mesh.nodes[static_cast<std::size_t>(nearest)];
     throw ConfigError(where, fmt::format("no node within {:.3g} m of {}; the nearest is node {} at {}, {:.3g} m away. "
-                                         "Correct the place, or give a larger 'tolerance'",
+                                         "Correct the position, or give a larger 'tolerance'",
                                          tolerance, Value<Vec3>::yaml(place), nearest, Value<Vec3>::yaml(there),
                                          (there - place).norm()));
   }
@@ -106,8 +106,8 @@ class NodalForcesChoice : public TermChoice {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool nodal_forces_registered = Registry<TermChoice>::add<NodalForcesChoice>(
-    "nodal_forces", "Forces on nodes from a file, which keep their directions.");
+const bool nodal_forces_registered =
+    Registry<TermChoice>::add<NodalForcesChoice>("nodal_forces", "Dead forces on nodes from a file.");
 
 }  // namespace
 }  // namespace orthodyn

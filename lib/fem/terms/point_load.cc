@@ -1,5 +1,4 @@
 // The term `point_load`.
-#include <fmt/format.h>
 
 #include "lib/core/spelling.h"
 #include "lib/fem/term_choice.h"
@@ -36,8 +35,8 @@ class PointLoadChoice : public TermChoice, public Selection {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool point_load_registered = Registry<TermChoice>::add<PointLoadChoice>(
-    "point_load", "A force on a node, or shared by several, that keeps its direction.");
+const bool point_load_registered =
+    Registry<TermChoice>::add<PointLoadChoice>("point_load", "A dead force on a node, or shared by several nodes.");
 
 }  // namespace
 }  // namespace orthodyn

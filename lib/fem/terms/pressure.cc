@@ -13,7 +13,7 @@ namespace orthodyn {
 
 namespace {
 
-// Where the tangents are taken: anywhere if they are the same everywhere.
+// Point k at which a face's tangents are evaluated; any point if they are constant.
 const Vec3& tangent_point(int k) { return triangle_points_of_degree_5()[static_cast<std::size_t>(k)].L; }
 
 template <Face F>
@@ -45,7 +45,8 @@ FaceNodes<F> PressedFace<F>::forces(const NodalVector& x) const {
   return out;
 }
 
-// K_ab = sum_k W_ak A_b(k), skew A_b = d(x_,1 x x_,2)/dx_b = N_b,2 [x_,1] - N_b,1 [x_,2].
+// K_ab = sum_k W_ak A_b(k) with the weights W_ak of tangent point k and the skew matrices
+//   A_b = d(x_,1 x x_,2)/dx_b = N_b,2 [x_,1] - N_b,1 [x_,2],  [y] z = y x z.
 template <Face F>
 typename PressedFace<F>::Stiffness PressedFace<F>::stiffness(const NodalVector& all) const {
   const FaceNodes<F> x = positions_of<F>(nodes, all);
@@ -127,14 +128,14 @@ void Pressure<F>::add_peak_force(const NodalState& s, double end, NodalVector& f
 
 template <Face F>
 void Pressure<F>::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
-  if (kind == TangentKind::gauss_newton) return;  // indefinite
+  if (kind == TangentKind::gauss_newton) return;  // the load stiffness is indefinite
   const double factor = factor_->value(s.t);
   for (const PressedFace<F>& face : faces_) {
     const auto K = face.stiffness(s.x);
     for (std::size_t i = 0; i < F::kNodes; ++i)
       for (std::size_t j = 0; j < F::kNodes; ++j) {
         const int a = face.nodes[i], b = face.nodes[j];
-        if (pattern_.symmetric() && a <= b) continue;  // the diagonal's symmetric part is zero
+        if (pattern_.symmetric() && a <= b) continue;  // a diagonal block is skew: no symmetric part
         Mat3 block = factor * block_of<F>(K, i, j);
         if (pattern_.symmetric()) block = 0.5 * (block + factor * block_of<F>(K, j, i).transpose());
         pattern_.add(a, b, pattern_.offset(a, b), block, stiffness);

@@ -1,20 +1,22 @@
-// Follower pressure on a surface: the virtual work of -p n da, with the normal n and the area of the deformed faces,
+// Follower pressure on a surface: the force -p n da on an area element da with normal n of a deformed face, or
 //
 //   f_a = -factor(t) integral of N_a p (x_,1 x x_,2) dL_1 dL_2
 //
-// with the tangents x_,1 and x_,2 of a face and p at rest. Exact for a uniform pressure; see PressedFace.
+// with shape functions N_a, the derivatives x_,1 and x_,2 of the position with respect to the face's coordinates L_1
+// and L_2, and the pressure p as a function of the rest position. The integral is exact for uniform pressure; see
+// PressedFace.
 //
-// A surface without boundary under uniform pressure has the energy p V; the force of others has none, so its work
-// counts as that of a load. The derivative -df_a/dx_b is symmetric where the pressure is uniform on a closed surface,
-// or on one whose edge is held (Hibbitt 1979, Some follower forces and load stiffness). Elsewhere a symmetric pattern
-// takes its symmetric part: an approximate Newton matrix, an exact force.
+// The work counts as work of a load, because only a closed surface under uniform pressure has an energy: p times the
+// enclosed volume. -df_a/dx_b is symmetric if the pressure is uniform and the surface is closed or its edge is held
+// (Hibbitt 1979, Some follower forces and load stiffness). Otherwise a symmetric pattern takes the symmetric part; the
+// Newton matrix is then approximate, the force exact.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "lib/config/point_quantity.h"
+#include "lib/config/formula.h"
 #include "lib/element/face.h"
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/term.h"
@@ -22,25 +24,25 @@
 
 namespace orthodyn {
 
-// A face with the integrals of N_a p about each point where its tangents are taken, Pa per unit of L_1 and L_2.
+// A face and its weights: the integrals of N_a p dL_1 dL_2 (Pa), divided among its tangent points.
 template <Face F>
 struct PressedFace {
   std::array<int, F::kNodes> nodes;
   Eigen::Matrix<double, F::kNodes, F::kTangentPoints> weights;
 
-  // `p` of the rest position, Pa; positive where it pushes against the outward normal.
+  // p(X): pressure at the rest position (Pa), positive against the outward normal.
   PressedFace(std::span<const int> its_nodes, const FaceNodes<F>& X, const PointQuantity& p);
 
-  // A column per node, at positions x (m) of all nodes, N.
+  // Nodal forces (N), one column per node, at positions x (m) of all nodes.
   FaceNodes<F> forces(const NodalVector& x) const;
 
-  // -df/dx by its nodes' coordinates, N/m.
+  // -df/dx of the face's nodes, N/m.
   using Stiffness = Eigen::Matrix<double, 3 * F::kNodes, 3 * F::kNodes>;
   Stiffness stiffness(const NodalVector& x) const;
 };
 
-// Whether their stiffnesses at positions x (m) make up a symmetric one of a body that is held in these coordinates
-// (3 node + component), to round-off.
+// Whether the assembled stiffness at positions x (m) is symmetric to round-off in the coordinates that are not `held`
+// (3 * node + component).
 template <Face F>
 bool has_symmetric_stiffness(const std::vector<PressedFace<F>>& faces, const NodalVector& x,
                              const std::vector<bool>& held);

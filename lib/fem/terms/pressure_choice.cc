@@ -1,7 +1,7 @@
-// The term `pressure`: one that follows the surface, or a dead load with the areas and normals of rest.
+// The term `pressure`: a follower load, or a dead load with the areas and normals of the rest shape.
 #include <map>
 
-#include "lib/config/point_quantity.h"
+#include "lib/config/formula.h"
 #include "lib/fem/face_nodes.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
@@ -27,20 +27,19 @@ class PressureChoice : public TermChoice {
  public:
   static const Spec<PressureChoice>& spec() {
     using P = PressureChoice;
-    static const auto s =
-        Spec<P>()
-            .key("surface", &P::surface_, "A named surface; default the whole outer surface.")
-            .key("pressure", &P::pressure_,
-                 "Positive where it pushes on the body: a number, or a formula of the rest position.",
-                 {.required = true, .unit = "Pa"})
-            .key("follows", &P::follows_,
-                 "true: it turns and grows with the surface. false: a dead load, with the areas and normals of rest. "
-                 "Default true; with kinematics: linear false.")
-            .key("factor", &P::factor_, "Factor in time.", {.fallback = "{type: constant}"});
+    static const auto s = Spec<P>()
+                              .key("surface", &P::surface_, "A named surface; default the whole outer surface.")
+                              .key("pressure", &P::pressure_,
+                                   "Positive where it pushes on the body: a number, or a formula of the rest position.",
+                                   {.required = true, .unit = "Pa"})
+                              .key("follows", &P::follows_,
+                                   "true: a follower load, which turns and grows with the surface. false: a dead load "
+                                   "with the areas and normals at rest. Default true; false with kinematics: linear.")
+                              .key("factor", &P::factor_, "Factor in time.", {.fallback = "{type: constant}"});
     return s;
   }
 
-  // What is linear otherwise stays so.
+  // By default, pressure keeps a linear model linear.
   Defaults defaults(const ElasticityOptions& elasticity) const override {
     return {{"follows", elasticity.kinematics == Kinematics::linear ? "false" : "true"}};
   }
@@ -55,7 +54,7 @@ class PressureChoice : public TermChoice {
     return mesh.order() == 1 ? is_symmetric<Tri3>(mesh, faces, held) : is_symmetric<Tri6>(mesh, faces, held);
   }
 
-  // One that follows: its stiffness changes with the shape; an open surface's work depends on the path.
+  // The stiffness of follower pressure depends on the shape. Its work on an open surface depends on the path.
   void declare(Traits& traits) const override {
     declare_load(*factor_, traits);
     if (follows()) traits.linear = traits.conservative = false;
@@ -96,8 +95,8 @@ class PressureChoice : public TermChoice {
 
 const bool pressure_registered =
     Registry<TermChoice>::add<PressureChoice>("pressure",
-                                              "Pressure on a surface, which it follows by default (of an unsymmetric "
-                                              "stiffness motions take the symmetric part), or dead.");
+                                              "Pressure on a surface: a follower load (dynamic runs take the symmetric "
+                                              "part of an unsymmetric stiffness), or dead.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -17,15 +17,14 @@ class Expression : public TimeFunction {
     static const auto s =
         Spec<Expression>()
             .key("formula", &Expression::formula_, "The factor.", {.required = true})
-            .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
+            .key("kinks", &Expression::kinks_, "Times where the formula is not smooth; integrators restart there.",
                  {.unit = "s"})
             .key("peak", &Expression::peak_,
-                 "The largest magnitude it reaches, for default scales of errors; default the largest found at 100,000 "
-                 "times of the span.",
+                 "Largest magnitude, for default error scales; default: the largest at 100,000 times of the span.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
-                 "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less; "
-                 "default by what it does in the span.",
+                 "Step of the finite differences for rate and curvature: at most 1/60 of the shortest period; default: "
+                 "chosen from the formula's course over the time span.",
                  {.unit = "s", .range = kPositive});
     return s;
   }
@@ -50,7 +49,7 @@ class Expression : public TimeFunction {
       try {
         largest = std::max(largest,
                            std::abs(formula_.at(k < kSamples ? start + golden_ratio_sample(k) * (end - start) : end)));
-      } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
+      } catch (const ConfigError&) {  // no value at this time; the run reports this if it reaches the time
       }
     }
     return largest;
@@ -66,7 +65,7 @@ class Expression : public TimeFunction {
   std::vector<double> kinks_;
   std::optional<double> peak_;
   std::optional<double> resolution_;
-  DifferenceStep step_{1e-3};  // where no span is known
+  DifferenceStep step_{1e-3};  // s; used if the time span is unknown
 };
 
 const bool expression_registered = Registry<TimeFunction>::add<Expression>("expression", "A formula of t.");

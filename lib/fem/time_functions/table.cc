@@ -6,7 +6,7 @@
 namespace orthodyn {
 namespace {
 
-// Piecewise linear, constant beyond its ends.
+// Piecewise linear between its points, constant outside.
 class Table : public TimeFunction {
  public:
   static const Spec<Table>& spec() {

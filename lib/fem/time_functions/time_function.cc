@@ -16,7 +16,7 @@ std::vector<double> times_between(const std::vector<double>& all, double start, 
 }
 
 double TimeFunction::seconds_at_peak(double start, double end) const {
-  constexpr std::size_t kSamples = 2048, kFewest = 8;  // in all, and in a part
+  constexpr std::size_t kSamples = 2048, kFewest = 8;  // samples in total; fewest per smooth part
   if (constant()) return end - start;
   const double largest = peak(start, end);
   if (!(largest > 0)) return 0;
@@ -31,7 +31,7 @@ double TimeFunction::seconds_at_peak(double start, double end) const {
     for (int k = 0; k < samples; ++k) {
       try {
         sum += length / samples * std::abs(value(begin + length * golden_ratio_sample(k)));
-      } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
+      } catch (const ConfigError&) {  // no value at this time; the run reports this if it reaches the time
       }
     }
     begin = part_end;

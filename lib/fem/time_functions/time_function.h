@@ -1,4 +1,4 @@
-// A factor in time, for loads and for the motion of supports. One kind per file, chosen by `type`.
+// A time function: the dimensionless factor of loads and support motions. The key `type` chooses it.
 #pragma once
 
 #include <memory>
@@ -13,22 +13,22 @@ class TimeFunction {
  public:
   virtual ~TimeFunction() = default;
   virtual double value(double t) const = 0;
-  virtual double rate(double t) const = 0;       // 1/s; at a jump, from the right
-  virtual double curvature(double t) const = 0;  // 1/s^2, likewise
+  virtual double rate(double t) const = 0;       // 1/s; right-hand value at a jump
+  virtual double curvature(double t) const = 0;  // 1/s^2; right-hand value at a jump
   virtual bool constant() const { return false; }
-  virtual std::vector<double> kinks() const { return {}; }  // where it is not smooth
+  virtual std::vector<double> kinks() const { return {}; }  // times at which the function is not smooth, s
   virtual bool has_continuous_rate() const { return kinks().empty(); }
-  // A copy whose rate and curvature are accurate between two times, s; null if those of this function are exact.
+  // A copy whose rate and curvature are accurate from start to end (s); null if those of this function already are.
   virtual std::shared_ptr<const TimeFunction> over(double /*start*/, double /*end*/) const { return nullptr; }
-  // What it does between the kinks.
+  // Step limits between the kinks, from start to end (s).
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
-  // The largest magnitude it reaches between two times, or ever: for default scales of errors.
+  // Largest magnitude from start to end, or at any time. Used for default error scales.
   virtual double peak(double start, double end) const = 0;
-  // s, in which the peak would have the impulse of the whole: the integral of its magnitude over the peak, about.
+  // Equivalent duration (s), approximately: the integral of the magnitude from start to end divided by peak().
   double seconds_at_peak(double start, double end) const;
 };
 
-// The times of `all` within (start, end).
+// Those of the given times that lie in the open interval (start, end).
 std::vector<double> times_between(const std::vector<double>& all, double start, double end);
 
 }  // namespace orthodyn

@@ -1,48 +1,44 @@
 #include "lib/mesh/io/abaqus_axes.h"
 
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {
 
-AbaqusAxes::AbaqusAxes(const AbaqusFile& file, const AbaqusOrientation& orientation, const EachElement& each,
-                       const Position& position)
+AbaqusAxes::AbaqusAxes(const AbaqusFile& file, const AbaqusOrientation& orientation, AbaqusLookup& lookup)
     : file_(file), orientation_(orientation), points_(orientation.points) {
-  for (std::size_t k = 0; k < orientation.nodes.size(); ++k) points_[k] = position(orientation.nodes[k]);
-  if (!orientation.distribution.empty()) points_of_ = by_element(orientation.distribution, 6, each);
-  if (!orientation.angles.empty()) angle_of_ = by_element(orientation.angles, 1, each);
+  for (std::size_t k = 0; k < orientation.nodes.size(); ++k)
+    points_[k] = lookup.position(orientation.nodes[k], orientation.place);
+  if (!orientation.distribution.empty()) points_of_ = by_element(orientation.distribution, 6, lookup);
+  if (!orientation.angles.empty()) angle_of_ = by_element(orientation.angles, 1, lookup);
 }
 
-AbaqusAxes::ByElement AbaqusAxes::by_element(const std::string& name, std::size_t count,
-                                             const EachElement& each) const {
+AbaqusAxes::ByElement AbaqusAxes::by_element(const std::string& name, std::size_t count, AbaqusLookup& lookup) const {
   ByElement out{find_abaqus(file_.distributions, name), std::vector<int>(file_.draft.cells.size(), -1)};
   if (!out.distribution)
-    file_.draft.fail(orientation_.place, fmt::format("*ORIENTATION: no *DISTRIBUTION {}", TextTokens::quoted(name)));
+    file_.draft.fail(orientation_.place, "*ORIENTATION: no *DISTRIBUTION {}", TextTokens::quoted(name));
   if (out.distribution->count != count)
-    file_.draft.fail(out.distribution->place,
-                     fmt::format("distribution {} is not of {} by element, as the orientation {} needs it",
-                                 TextTokens::quoted(out.distribution->name),
-                                 count == 6 ? "two points (COORD3D, COORD3D)" : "an angle (ANGLE)",
-                                 TextTokens::quoted(orientation_.name)));
+    file_.draft.fail(out.distribution->place, "distribution {} is not of {} by element, as the orientation {} needs it",
+                     TextTokens::quoted(out.distribution->name),
+                     count == 6 ? "two points (COORD3D, COORD3D)" : "an angle (ANGLE)",
+                     TextTokens::quoted(orientation_.name));
   for (std::size_t r = 0; r < out.distribution->rows.size(); ++r)
-    each(out.distribution->rows[r].elements, [&](std::size_t cell) { out.row[cell] = static_cast<int>(r); });
+    lookup.each_cell(out.distribution->rows[r].elements,
+                     [&](std::size_t cell) { out.row[cell] = static_cast<int>(r); });
   return out;
 }
 
 const std::array<double, 6>& AbaqusAxes::values(const ByElement& listed, std::size_t cell) const {
   const AbaqusDistribution& all = *listed.distribution;
   const int row = listed.row[cell];
-  if (row < 0 && all.others.empty()) fail(cell, "no row of its distribution, and there is none for the others");
-  return row < 0 ? all.others.front().values : all.rows[static_cast<std::size_t>(row)].values;
+  if (row < 0 && all.default_row.empty()) fail(cell, "its distribution has no row for it, and no default row");
+  return row < 0 ? all.default_row.front().values : all.rows[static_cast<std::size_t>(row)].values;
 }
 
 void AbaqusAxes::fail(std::size_t cell, const char* what) const {
-  file_.draft.fail(orientation_.place,
-                   fmt::format("*ORIENTATION {}, element {}: {}", TextTokens::quoted(orientation_.name),
-                               file_.draft.cells[cell].tag, what));
+  file_.draft.fail(orientation_.place, "*ORIENTATION {}, element {}: {}", TextTokens::quoted(orientation_.name),
+                   file_.draft.cells[cell].tag, what);
 }
 
 Mat3 AbaqusAxes::of(std::size_t cell, const Vec3& centre) const {
@@ -58,9 +54,9 @@ Mat3 AbaqusAxes::of(std::size_t cell, const Vec3& centre) const {
   return Q * Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::Unit(orientation_.axis)).toRotationMatrix();
 }
 
-// Rectangular: axis 1 from c to a, b in the plane of axes 1 and 2; or axis 3 to a, b in the plane of axes 1 and 3.
-// Cylindrical: away from the line through a and b, around it, along it. Spherical: away from a, around that line, and
-// from pole to pole.
+// Rectangular: axis 1 from c to a, b in the plane of axes 1 and 2. Z rectangular: axis 3 from c to a, b in the plane of
+// axes 1 and 3. Cylindrical, about the line a-b: radial, tangential, axial. Spherical, with the centre a and the poles
+// on the line a-b: radial, tangential (along parallels), meridional.
 Mat3 AbaqusAxes::frame(const std::array<Vec3, 3>& points, const Vec3& centre, std::size_t cell) const {
   using enum AbaqusOrientation::System;
   const auto& [a, b, c] = points;
@@ -69,8 +65,8 @@ Mat3 AbaqusAxes::frame(const std::array<Vec3, 3>& points, const Vec3& centre, st
     if (!(w.norm() > 1e-12 * u.norm() * v.norm()) || !w.allFinite()) fail(cell, what);
     return w.normalized();
   };
-  constexpr const char* kLine = "points are on a line; give two different directions";
-  constexpr const char* kPole = "its centre is on the polar axis, or the points of that are the same";
+  constexpr const char* kLine = "the points are on a line; give two different directions";
+  constexpr const char* kPole = "its centre is on the polar axis, or the two points of the axis coincide";
   Mat3 Q;
   switch (orientation_.system) {
     case rectangular:

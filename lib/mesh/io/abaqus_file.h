@@ -1,5 +1,5 @@
-// What an Abaqus input file says of its mesh. Names are compared in capitals; those of an instance begin with its name,
-// "PART-1-1.SIDE", as Abaqus itself refers to them.
+// The content of an Abaqus input file (.inp). Names are compared in capitals. Names within an instance get its name as
+// a prefix, "PART-1-1.SIDE", as in Abaqus.
 #pragma once
 
 #include <array>
@@ -9,28 +9,26 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/mesh/io/abaqus_amplitude.h"
 #include "lib/mesh/io/abaqus_material.h"
-#include "lib/mesh/io/abaqus_transform.h"
 #include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
 
-// Numbers first, first + step, ... up to last, or the members of another set.
+// Members of a set: the numbers first, first + step, ..., last, or the members of another set.
 struct AbaqusMembers {
   std::int64_t first = 0, last = 0, step = 1;
   std::string set = {};  // in capitals; empty for numbers
   FilePlace place = {};
-  bool listed = false;       // not by GENERATE: each number must exist
-  bool of_elements = false;  // of a node set: the nodes of the elements of `set`
+  bool listed = false;       // listed, not from GENERATE, so that each number must exist
+  bool of_elements = false;  // in a node set: the nodes of the elements of `set`
 };
 
 struct AbaqusSet {
   std::string name;  // as first spelled
   std::vector<AbaqusMembers> members = {};
-  int order = 0;              // of the last line that added to it
-  std::string instance = {};  // as spelled, of a set within one
-  bool of_condition = false;  // made of the nodes that a condition lists
+  int order = 0;              // larger for sets to which members were added later
+  std::string instance = {};  // the instance that contains the set, as spelled; may be empty
+  bool of_condition = false;  // created for the nodes that a condition lists
 };
 
 struct AbaqusFace {
@@ -43,10 +41,10 @@ struct AbaqusSurface {
   std::string name;
   std::vector<AbaqusFace> faces = {};
   std::string instance = {};
-  bool of_condition = false;  // made of the faces that a *DLOAD lists
+  bool of_condition = false;  // created for the faces that a *DLOAD lists
 };
 
-// x -> R x + t, of an instance.
+// Rigid motion x -> R x + t that places an instance.
 struct AbaqusPlacement {
   Mat3 R = Mat3::Identity();
   Vec3 t = Vec3::Zero();
@@ -59,54 +57,71 @@ struct AbaqusSection {
   std::string orientation = {}, material = {};
 };
 
-// *ORIENTATION: a system through the points a, b and c, which stand here, are those of nodes, or are listed by element.
+// *ORIENTATION: a coordinate system through the points a, b and c. They are given here, by nodes, or by a distribution.
 struct AbaqusOrientation {
   enum class System { rectangular, z_rectangular, cylindrical, spherical };
 
   std::string name;  // as spelled
   System system = System::rectangular;
-  std::array<Vec3, 3> points = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // where they lie once placed
-  std::vector<std::int64_t> nodes = {};                                     // instead of points
-  std::string distribution = {}, angles = {};                               // in capitals
-  Eigen::Index axis = 0;                                                    // turned about by `degrees` or `angles`
+  std::array<Vec3, 3> points = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a, b, c in global coordinates, m
+  std::vector<std::int64_t> nodes = {};        // tags of a, b, c, used in place of `points`; may be empty
+  std::string distribution = {}, angles = {};  // names of the *DISTRIBUTION of points and of that of angles, or ""
+  Eigen::Index axis = 0;                       // index 0 to 2 of the axis about which `degrees` or `angles` rotate
   double degrees = 0;
   AbaqusPlacement placement = {};
   FilePlace place = {};
 };
 
-// *DISTRIBUTION by element: six coordinates of the points a and b, or an angle.
+// *DISTRIBUTION by element: six coordinates of the points a and b, or an angle (degrees).
 struct AbaqusDistribution {
   struct Row {
     AbaqusMembers elements;
     std::array<double, 6> values = {};
   };
   std::string name;
-  std::size_t count = 0;  // of values in a row, 6 or 1; 0 of one that is not read
+  std::size_t count = 0;  // values per row: 6 or 1; 0 for a distribution that is skipped
   std::vector<Row> rows = {};
-  std::vector<Row> others = {};  // one, of the elements that no row names, or none
+  std::vector<Row> default_row = {};  // at most one: the default row
   FilePlace place = {};
 };
 
-// A line of *BOUNDARY, *CLOAD, *DLOAD or *DSLOAD. Numbers that share what stands behind them are one line with a set,
-// or a surface, of their own ("boundary_1").
+// A line of *BOUNDARY, *CLOAD, *DLOAD or *DSLOAD. Lines that list numbers and have the same remaining fields are merged
+// into one, with a set or surface created for it ("boundary_1").
 struct AbaqusCondition {
   AbaqusKeyword keyword;
-  std::size_t step = 0;                  // 0 of the model, 1 of the first step
-  std::string target = {};               // a key of node_sets, element_sets or surfaces, or "" for all
-  std::vector<std::string> fields = {};  // behind that
+  std::size_t step = 0;                  // 0: model data, 1: first step
+  std::string target = {};               // key of node_sets, element_sets or surfaces; "" for all
+  std::vector<std::string> fields = {};  // after the target
+  FilePlace place = {};
+};
+
+// *AMPLITUDE: a time factor of conditions. Linear between the points, constant before the first and after the last.
+struct AbaqusAmplitude {
+  std::string name = {};                           // as spelled
+  std::vector<std::array<double, 2>> points = {};  // time (s), factor; times ascend
+  std::string problem = {};  // why the points are missing: "SMOOTH of *AMPLITUDE Pulse (line 12) is not read"; or ""
+  FilePlace place = {};
+};
+
+using AbaqusAmplitudes = std::map<std::string, AbaqusAmplitude>;  // by name in capitals
+
+// *TRANSFORM: local directions of displacements and forces at the nodes of a set.
+struct AbaqusTransform {
+  std::string set = {};      // key of a node set
+  bool is_identity = false;  // the directions are the global ones, to 1e-6 rad
   FilePlace place = {};
 };
 
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
-// Is added to the numbers of nodes and elements of an assembly that has instances.
+// Offset of the node and element numbers of an assembly that has instances.
 inline constexpr std::int64_t kAbaqusAssembly = 1'000'000'000'000'000;
 
 struct AbaqusFile {
-  MeshDraft draft;                                      // nodes and solid elements
-  std::vector<FileFace> faces;                          // elements of three or four corners, of shells and the like
-  std::vector<std::vector<std::int64_t>> face_middles;  // of each the other nodes
-  std::vector<FileNodeUse> left_out;                    // numbers of elements of other types
+  MeshDraft draft;                                      // nodes, solid elements
+  std::vector<FileFace> faces;                          // shells and plane elements: triangles, quadrilaterals
+  std::vector<std::vector<std::int64_t>> face_middles;  // mid-edge nodes of each face
+  std::vector<FileNodeUse> ignored_elements;            // tags of elements of other types
   AbaqusSets node_sets, element_sets;
   std::map<std::string, AbaqusSurface> surfaces;
   std::vector<AbaqusSection> sections;
@@ -115,14 +130,13 @@ struct AbaqusFile {
   AbaqusMaterials materials;
   std::vector<AbaqusCondition> conditions;
   std::vector<AbaqusKeyword> steps;
-  double first_period = 1;  // s, of the first step: that of its procedure, such as *STATIC, or Abaqus' default
+  double first_period = 1;  // duration of the first step, s; from its procedure (*STATIC, ...)
   AbaqusAmplitudes amplitudes;
   std::vector<AbaqusTransform> transforms;
-  std::map<std::string, FilePlace> skipped;  // "*OUTPUT", ... with the first place
+  std::map<std::string, FilePlace> skipped;  // by keyword ("*OUTPUT"): where it first occurs
 };
 
-// The entry of a name, which is that of its instance or else that of the model: "PART-1-1.SIDE", then "SIDE". Null if
-// there is none.
+// Looks up "PART-1-1.SIDE", then "SIDE"; null if there is neither.
 template <class Value>
 const Value* find_abaqus(const std::map<std::string, Value>& all, const std::string& name) {
   auto found = all.find(name);
@@ -131,7 +145,7 @@ const Value* find_abaqus(const std::map<std::string, Value>& all, const std::str
   return found == all.end() ? nullptr : &found->second;
 }
 
-// Throws ConfigError.
+// Reads the file and those it includes; `path` is for messages and includes. Throws ConfigError.
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text);
 
 }  // namespace orthodyn

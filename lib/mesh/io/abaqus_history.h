@@ -1,6 +1,7 @@
-// Steps of an Abaqus input file, their supports and loads, and the amplitudes and transforms that these name.
+// Steps of an Abaqus input file with supports, loads, amplitudes and transforms.
 //
-// Source: Abaqus keywords reference, *STEP, *STATIC, *DYNAMIC, *BOUNDARY, *CLOAD, *DLOAD, *DSLOAD.
+// Source: Abaqus keywords reference, *STEP, *STATIC, *DYNAMIC, *BOUNDARY, *CLOAD, *DLOAD, *DSLOAD, *AMPLITUDE,
+// *TRANSFORM; analysis user's guide, "amplitude curves", "transformed coordinate systems".
 #pragma once
 
 #include <map>
@@ -12,19 +13,19 @@ namespace orthodyn {
 
 class AbaqusHistoryReader {
  public:
-  // All must outlive this.
+  // All arguments must outlive the reader.
   AbaqusHistoryReader(AbaqusLines& lines, const AbaqusScopes& scopes, AbaqusFile& file)
       : lines_(lines), scopes_(scopes), file_(file) {}
 
-  // Takes a keyword of the history into the file, with its lines of data. Ignores other keywords. Throws ConfigError.
+  // Reads a keyword of the history and its data lines into the file. Ignores other keywords. Throws ConfigError.
   void read(const AbaqusKeyword& keyword);
 
  private:
   void read_period();
   void read_conditions(const AbaqusKeyword& keyword);
-  // Gives the condition its target. False if an earlier condition with the same fields takes these numbers, too.
-  // `made`: by fields, the keys of sets made for this keyword.
-  bool gather(AbaqusCondition& condition, const AbaqusMembers& members, std::map<std::string, std::string>& made);
+  // Sets the target of the condition. Returns false if the members were merged into an earlier condition with the same
+  // fields. `made`: keys of the sets created for this keyword, by fields.
+  bool set_target(AbaqusCondition& condition, const AbaqusMembers& members, std::map<std::string, std::string>& made);
 
   AbaqusLines& lines_;
   const AbaqusScopes& scopes_;

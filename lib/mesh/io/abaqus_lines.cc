@@ -1,20 +1,18 @@
 #include "lib/mesh/io/abaqus_lines.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
 #include "lib/core/errors.h"
 #include "lib/core/parse_number.h"
 #include "lib/core/spelling.h"
-#include "lib/mesh/io/abaqus_parameters.h"
 
 namespace orthodyn {
 namespace {
 
-constexpr int kDeepest = 20, kMostFiles = 1000;
+constexpr int kMaxIncludeDepth = 20, kMaxIncludedFiles = 1000;
 
 std::string_view stripped(std::string_view text) {
   const auto is_edge = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
@@ -23,7 +21,7 @@ std::string_view stripped(std::string_view text) {
   return text;
 }
 
-// The next comma that does not stand in quotes; a quote that nothing closes is a character like others.
+// The next comma outside quotes, or the end. An unclosed quote is an ordinary character.
 std::size_t next_comma(std::string_view line) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (line[k] == ',') return k;
@@ -68,14 +66,18 @@ std::optional<double> abaqus_number(std::string_view field) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+bool abaqus_is_name(std::string_view field) {
+  return !field.empty() && (std::isalpha(static_cast<unsigned char>(field[0])) || field[0] == '_');
+}
+
 AbaqusLines::AbaqusLines(MeshDraft& draft, std::string_view text)
     : draft_(draft), folder_(std::filesystem::path(draft.files.front()).parent_path().string()) {
   sources_.push_back({{draft.files.front(), text, {.comment = "**"}}, 0, false});
   place_.line = sources_.back().tokens.line();
 }
 
-// Follows *INCLUDE, and goes on behind it where the file ends.
-void AbaqusLines::settle() {
+// Enters files at *INCLUDE and leaves them at their end.
+void AbaqusLines::follow_includes() {
   for (;;) {
     Source& top = sources_.back();
     if (top.tokens.at_end()) {
@@ -83,15 +85,16 @@ void AbaqusLines::settle() {
       const bool only_data = top.only_data;
       sources_.pop_back();
       if (!only_data) continue;
-      settle();
+      follow_includes();
       if (at_end() || sources_.back().tokens.peek() == '*') return;
       place_ = {sources_.back().tokens.line(), sources_.back().file};
-      fail("lines of data behind a keyword with INPUT=; put them into that file, or leave out INPUT=");
+      fail("data lines after a keyword with INPUT=; put them into that file, or remove INPUT=");
     }
     if (top.tokens.peek() != '*') return;
     if (top.only_data) {
       place_ = {top.tokens.line(), top.file};
-      fail("a keyword in a file of INPUT=, which holds lines of data only; name the file in *INCLUDE, INPUT=");
+      fail(
+          "a keyword in a file named by INPUT=, which may contain data lines only; use *INCLUDE, INPUT= for this file");
     }
     if (!is_include(top.tokens.rest_of_line())) return;
     const AbaqusKeyword include = take_keyword();
@@ -101,7 +104,7 @@ void AbaqusLines::settle() {
 }
 
 bool AbaqusLines::at_keyword() {
-  settle();
+  follow_includes();
   return at_end() || sources_.back().tokens.peek() == '*';
 }
 
@@ -115,7 +118,7 @@ AbaqusKeyword AbaqusLines::keyword() {
   return keyword;
 }
 
-// A line that ends with a comma goes on in the next one.
+// A keyword line that ends with a comma continues on the next line.
 AbaqusKeyword AbaqusLines::take_keyword() {
   TextTokens& tokens = sources_.back().tokens;
   place_ = {tokens.line(), sources_.back().file};
@@ -135,24 +138,24 @@ AbaqusKeyword AbaqusLines::take_keyword() {
     const std::size_t equals = std::min(fields[k].find('='), fields[k].size());
     const std::string_view value = equals < fields[k].size() ? stripped(fields[k].substr(equals + 1)) : "";
     const std::string name = abaqus_word(fields[k].substr(0, equals));
-    if (!keyword.parameters.emplace(name, value).second) fail(fmt::format("{}: {} twice", keyword.spelled, name));
+    if (!keyword.parameters.emplace(name, value).second) fail("{}: {} is given twice", keyword.spelled, name);
   }
-  keyword.is_read = check_abaqus_parameters(keyword, [&](const std::string& message) { fail(message); });
+  keyword.is_read = check_abaqus_parameters(keyword, [&](const std::string& message) { fail("{}", message); });
   return keyword;
 }
 
 void AbaqusLines::open(const std::string& file, const AbaqusKeyword& keyword, bool only_data) {
   const std::string path = (std::filesystem::path(folder_) / file).string();
-  if (sources_.size() > kDeepest || ++opened_ > kMostFiles)
-    fail(fmt::format("{}, INPUT={}: more than {} files, or {} within each other; does one include itself?",
-                     keyword.spelled, TextTokens::quoted(file), kMostFiles, kDeepest));
+  if (sources_.size() > kMaxIncludeDepth || ++opened_ > kMaxIncludedFiles)
+    fail("{}, INPUT={}: more than {} included files, or nested more than {} deep; does a file include itself?",
+         keyword.spelled, TextTokens::quoted(file), kMaxIncludedFiles, kMaxIncludeDepth);
   auto found = texts_.find(path);
   if (found == texts_.end()) {
     std::string text;
     try {
       text = read_text_file(path);
     } catch (const ConfigError& error) {
-      fail(fmt::format("{}, INPUT={}: {}", keyword.spelled, TextTokens::quoted(file), error.what()));
+      fail("{}, INPUT={}: {}", keyword.spelled, TextTokens::quoted(file), error.what());
     }
     draft_.files.push_back(path);
     found = texts_.emplace(path, std::pair(static_cast<int>(draft_.files.size()) - 1, std::move(text))).first;
@@ -177,15 +180,14 @@ void AbaqusLines::skip_data() {
 std::int64_t AbaqusLines::integer(std::string_view field, const char* what) const {
   std::int64_t value = 0;
   if (!parse_number(field, value))
-    fail(
-        fmt::format("expected {} (an integer), found {}", what, field.empty() ? "nothing" : TextTokens::quoted(field)));
+    fail("expected {} (an integer), found {}", what, field.empty() ? "nothing" : TextTokens::quoted(field));
   return value;
 }
 
 double AbaqusLines::real(std::size_t field, const char* what) const {
   if (field >= fields_.size()) return 0;
   const std::optional<double> value = abaqus_number(fields_[field]);
-  if (!value) fail(fmt::format("expected {} (a finite number), found {}", what, TextTokens::quoted(fields_[field])));
+  if (!value) fail("expected {} (a finite number), found {}", what, TextTokens::quoted(fields_[field]));
   return *value;
 }
 
@@ -201,7 +203,7 @@ void AbaqusLines::leave() {
 
 std::string AbaqusLines::name_of(const AbaqusKeyword& keyword, const char* parameter) const {
   const std::string name = keyword.parameter(parameter);
-  if (name.empty()) fail(fmt::format("{} without {}=name", keyword.spelled, parameter));
+  if (name.empty()) fail("{} without {}=name", keyword.spelled, parameter);
   return name;
 }
 
@@ -211,8 +213,8 @@ std::string AbaqusLines::choice(const AbaqusKeyword& keyword, const char* parame
   if (given.empty()) return values.front();
   for (const std::string& value : values)
     if (abaqus_word(value).starts_with(given)) return value;
-  fail(fmt::format("{}, {}={} is not read; read are {}", keyword.spelled, parameter,
-                   TextTokens::quoted(keyword.parameter(parameter)), join(values)));
+  fail("{}, {}={} is not supported; supported: {}", keyword.spelled, parameter,
+       TextTokens::quoted(keyword.parameter(parameter)), join(values));
 }
 
 }  // namespace orthodyn

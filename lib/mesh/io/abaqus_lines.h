@@ -1,12 +1,12 @@
-// An Abaqus input file line by line: keyword lines with their parameters, and lines of data. Files that *INCLUDE and
-// INPUT= name are read in their place.
+// Reads an Abaqus input file line by line: keyword lines with parameters, and data lines. Files named by *INCLUDE and
+// INPUT= are read in place.
 //
-// Syntax: Abaqus analysis user's guide, "Input syntax rules". Blanks within keywords and names of parameters do not
-// matter, nor do capitals.
+// Syntax: Abaqus analysis user's guide, "Input syntax rules". Blanks and case do not matter in keywords and parameter
+// names.
 #pragma once
 
 #include <cstdint>
-#include <list>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,9 +23,9 @@ namespace orthodyn {
 struct AbaqusKeyword {
   std::string name = {};                               // in capitals, without the star and blanks: "SOLIDSECTION"
   std::string spelled = {};                            // for messages: "*SOLID SECTION"
-  std::map<std::string, std::string> parameters = {};  // by name in capitals without blanks; "" of those without value
+  std::map<std::string, std::string> parameters = {};  // by name in capitals without blanks; "" if it has no value
   FilePlace place = {};
-  bool is_read = false;  // abaqus_parameters.h has it
+  bool is_read = false;  // false: the keyword is skipped
 
   bool has(const std::string& key) const { return parameters.contains(key); }
   std::string parameter(const std::string& key) const {
@@ -34,59 +34,74 @@ struct AbaqusKeyword {
   }
 };
 
-// In capitals and without blanks.
+// The text in capitals and without blanks.
 std::string abaqus_word(std::string_view text);
 
-// A field as a finite number, which may have Fortran's D for the exponent; zero where it is empty, none if it is none.
+// A field as a finite number, possibly with Fortran's exponent D. Zero if the field is empty; nullopt if it is not a
+// number.
 std::optional<double> abaqus_number(std::string_view field);
+
+// Whether a field is a name (begins with a letter or _), not a number.
+bool abaqus_is_name(std::string_view field);
+
+// Checks the parameters of a keyword against the table in abaqus_parameters.cc: each is used, harmless or unsupported.
+// Calls `fail` with a message for unsupported and unknown ones. Returns false for keywords that are skipped, which may
+// have any parameters.
+bool check_abaqus_parameters(const AbaqusKeyword& keyword, const std::function<void(const std::string&)>& fail);
 
 class AbaqusLines {
  public:
-  // Of the first file of the draft, to which those that are included are added. Draft and text must outlive this.
+  // `text` is the content of the draft's first file; included files are added to the draft. Both must outlive this.
   AbaqusLines(MeshDraft& draft, std::string_view text);
 
-  // Whether no line of data comes next; also true at the end.
+  // True if the next line is a keyword or the end of the input.
   bool at_keyword();
   bool at_end();
 
-  // Precondition: at_keyword(), and not at the end. Refuses parameters by abaqus_parameters.h.
+  // Reads a keyword and checks its parameters. Precondition: at_keyword() and not at_end(). Throws ConfigError.
   AbaqusKeyword keyword();
 
-  // The next line of data: what stands between its commas, without blanks and quotes around it; fields at the end that
-  // are empty are left out. Valid until the next call. Precondition: not at_keyword().
+  // The comma-separated fields of the next data line, without surrounding blanks and quotes and without empty fields at
+  // the end. Valid until the next call. Precondition: not at_keyword().
   const std::vector<std::string_view>& data();
-  FilePlace place() const { return place_; }  // of the line that was last taken
+  FilePlace place() const { return place_; }  // of the line read last
 
   void skip_data();
 
-  // The value of a parameter that the keyword must have, such as NAME. Throws ConfigError.
+  // The value of a required parameter, such as NAME. Throws ConfigError if it is missing.
   std::string name_of(const AbaqusKeyword& keyword, const char* parameter = "NAME") const;
-  // One of the values of a parameter, which may be shortened; the first without the parameter. Throws ConfigError.
+  // The value of a parameter: one of `values`, which may be abbreviated, or the first of them if the parameter is
+  // missing. Throws ConfigError.
   std::string choice(const AbaqusKeyword& keyword, const char* parameter, const std::vector<std::string>& values) const;
 
-  // Of the next line.
+  // The text of the next line.
   std::string_view rest_of_line() const { return sources_.back().tokens.rest_of_line(); }
 
-  // Fields of the last line of data as numbers. An empty or missing real number is zero.
+  // The number of fields of the last data line, and fields as numbers. An empty or missing real number is zero. `what`
+  // is for messages.
   std::size_t size() const { return fields_.size(); }
   std::int64_t integer(std::string_view field, const char* what) const;
   double real(std::size_t field, const char* what) const;
 
-  // A place to which a reader may go back, as often as it likes: enter() goes there, leave() back to where it was.
+  // A position in the input. enter() continues reading there, leave() returns to where enter() was called.
   struct Source {
     TextTokens tokens;
     int file;
-    bool only_data;  // of INPUT=
+    bool only_data;  // a file named by INPUT=
   };
   using Mark = std::vector<Source>;
   Mark mark() const { return sources_; }
   void enter(const Mark& mark);
   void leave();
 
-  [[noreturn]] void fail(const std::string& message) const { draft_.fail(place_, message); }
+  // Throws ConfigError at place().
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
+    draft_.fail(place_, message, std::forward<Args>(args)...);
+  }
 
  private:
-  void settle();
+  void follow_includes();
   AbaqusKeyword take_keyword();
   void open(const std::string& file, const AbaqusKeyword& keyword, bool only_data);
 
@@ -94,7 +109,7 @@ class AbaqusLines {
   std::string folder_;  // of the first file
   std::vector<Source> sources_;
   std::vector<Mark> left_;
-  std::map<std::string, std::pair<int, std::string>> texts_;  // by path: index among the files, content
+  std::map<std::string, std::pair<int, std::string>> texts_;  // by path: index in draft.files, content
   std::vector<std::string_view> fields_;
   FilePlace place_;
   int opened_ = 0;

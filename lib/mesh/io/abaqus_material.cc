@@ -4,92 +4,36 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <set>
 #include <string_view>
 
 namespace orthodyn {
 namespace {
 
-// Beside the keywords that the reader knows. Source: Abaqus keywords reference, "model data" and "history data".
+bool is_listed(const std::string& name, const std::string& names) {
+  return (" " + names).find(" " + name + " ") != std::string::npos;
+}
+
+// Keywords that end a material, beside those that are read. Source: Abaqus keywords reference, "model data" and
+// "history data".
 bool ends_material(const AbaqusKeyword& keyword) {
-  static const std::set<std::string> names{"STEP",
-                                           "HEADING",
-                                           "PREPRINT",
-                                           "BOUNDARY",
-                                           "AMPLITUDE",
-                                           "INITIALCONDITIONS",
-                                           "SURFACEINTERACTION",
-                                           "CONTACT",
-                                           "CONTACTPAIR",
-                                           "TIE",
-                                           "COUPLING",
-                                           "KINEMATICCOUPLING",
-                                           "DISTRIBUTINGCOUPLING",
-                                           "EQUATION",
-                                           "MPC",
-                                           "RIGIDBODY",
-                                           "SHELLSECTION",
-                                           "SHELLGENERALSECTION",
-                                           "BEAMSECTION",
-                                           "BEAMGENERALSECTION",
-                                           "MEMBRANESECTION",
-                                           "SURFACESECTION",
-                                           "COHESIVESECTION",
-                                           "CONNECTORSECTION",
-                                           "CONNECTORBEHAVIOR",
-                                           "MASS",
-                                           "ROTARYINERTIA",
-                                           "SPRING",
-                                           "DASHPOT",
-                                           "GAP",
-                                           "TIMEPOINTS",
-                                           "PHYSICALCONSTANTS",
-                                           "FILTER",
-                                           "TRANSFORM",
-                                           "PARAMETER",
-                                           "RESTART",
-                                           "SECTIONCONTROLS",
-                                           "PRETENSIONSECTION",
-                                           "EMBEDDEDELEMENT",
-                                           "SYSTEM",
-                                           "NGEN",
-                                           "NFILL",
-                                           "NCOPY",
-                                           "NMAP",
-                                           "ELGEN",
-                                           "ELCOPY",
-                                           "SUBMODEL",
-                                           "IMPORT",
-                                           "SYMMETRICMODELGENERATION",
-                                           "CLOAD",
-                                           "DLOAD",
-                                           "DSLOAD",
-                                           "OUTPUT",
-                                           "NODEPRINT",
-                                           "ELPRINT",
-                                           "NODEFILE",
-                                           "ELFILE"};
-  return keyword.is_read || names.contains(keyword.name);
+  static const std::string names =
+      "STEP HEADING PREPRINT BOUNDARY AMPLITUDE INITIALCONDITIONS SURFACEINTERACTION CONTACT CONTACTPAIR TIE COUPLING "
+      "KINEMATICCOUPLING DISTRIBUTINGCOUPLING EQUATION MPC RIGIDBODY SHELLSECTION SHELLGENERALSECTION BEAMSECTION "
+      "BEAMGENERALSECTION MEMBRANESECTION SURFACESECTION COHESIVESECTION CONNECTORSECTION CONNECTORBEHAVIOR MASS "
+      "ROTARYINERTIA SPRING DASHPOT GAP TIMEPOINTS PHYSICALCONSTANTS FILTER TRANSFORM PARAMETER RESTART "
+      "SECTIONCONTROLS PRETENSIONSECTION EMBEDDEDELEMENT SYSTEM NGEN NFILL NCOPY NMAP ELGEN ELCOPY SUBMODEL IMPORT "
+      "SYMMETRICMODELGENERATION CLOAD DLOAD DSLOAD OUTPUT NODEPRINT ELPRINT NODEFILE ELFILE ";
+  return keyword.is_read || is_listed(keyword.name, names);
 }
 
 bool is_inert(const std::string& name) {
-  static const std::set<std::string> names{"EXPANSION",
-                                           "CONDUCTIVITY",
-                                           "SPECIFICHEAT",
-                                           "LATENTHEAT",
-                                           "INELASTICHEATFRACTION",
-                                           "JOULEHEATFRACTION",
-                                           "ELECTRICALCONDUCTIVITY",
-                                           "MAGNETICPERMEABILITY",
-                                           "DIFFUSIVITY",
-                                           "SOLUBILITY",
-                                           "DEPVAR",
-                                           "USEROUTPUTVARIABLES"};
-  return names.contains(name);
+  static const std::string names =
+      "EXPANSION CONDUCTIVITY SPECIFICHEAT LATENTHEAT INELASTICHEATFRACTION JOULEHEATFRACTION ELECTRICALCONDUCTIVITY "
+      "MAGNETICPERMEABILITY DIFFUSIVITY SOLUBILITY DEPVAR USEROUTPUTVARIABLES ";
+  return is_listed(name, names);
 }
 
-// The constants of one row, of which a line holds eight; a temperature may follow. Empty if there are several rows.
+// The `count` constants of a single row, eight per line; a temperature may follow. Empty if there are several rows.
 std::vector<double> row_of(const AbaqusMaterial::Rows& lines, std::size_t count) {
   std::vector<double> out;
   if (lines.empty() || lines.size() > (count + 7) / 8) return {};
@@ -109,7 +53,7 @@ void set_isotropic(const std::vector<double>& c, MeshMaterial& m) {
   m.g12 = m.g23 = m.g31 = c[0] / (2 * (1 + c[1]));
 }
 
-// E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+// Order of the constants: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
 void set_engineering_constants(const std::vector<double>& c, MeshMaterial& m) {
   m.kind = MeshMaterial::Kind::orthotropic;
   m.young = {c[0], c[1], c[2]};
@@ -122,7 +66,7 @@ void set_engineering_constants(const std::vector<double>& c, MeshMaterial& m) {
   m.g23 = c[8];
 }
 
-// C11, C12, C22, C13, C23, C33, C44, C55, C66 stand at these places of the 21.
+// C11, C12, C22, C13, C23, C33, C44, C55, C66, at these indices of the 21 constants.
 void set_orthotropic(const std::vector<double>& c, MeshMaterial& m) {
   constexpr std::array<std::size_t, 9> kPlaces{0, 1, 2, 3, 4, 5, 9, 14, 20};
   m.kind = MeshMaterial::Kind::anisotropic;
@@ -144,11 +88,11 @@ constexpr std::array<Type, 4> kTypes{{{"ISOTROPIC", 2, set_isotropic},
                                       {"ORTHOTROPIC", 9, set_orthotropic},
                                       {"ANISOTROPIC", 21, set_anisotropic}}};
 
-// Returns why there is none, or "".
+// Returns "", or why the elasticity cannot be read.
 std::string set_elasticity(const AbaqusMaterial& given, MeshMaterial& material) {
   if (given.elastic.empty()) return "it has no *ELASTIC";
   for (const Type& type : kTypes) {
-    if (!type.name.starts_with(given.type)) continue;  // words may be shortened
+    if (!type.name.starts_with(given.type)) continue;  // types may be abbreviated
     const std::vector<double> constants = row_of(given.elastic, type.count);
     if (constants.empty()) return fmt::format("*ELASTIC is not one set of {} constants", type.count);
     type.set(constants, material);
@@ -165,8 +109,8 @@ bool AbaqusMaterialReader::read(const AbaqusKeyword& keyword) {
     if (name.empty()) lines_.fail("*MATERIAL without NAME=name");
     current_ = &materials_[in_capitals(name)];
     *current_ = {.name = name, .place = keyword.place, .elastic_place = keyword.place, .density_place = keyword.place};
-    // The others are of tables by the rate of strain, which are named by themselves.
-    name_others(keyword, {"NAME", "RTOL", "SRATEFACTOR", "STRAINRATEREGULARIZATION"});
+    // The parameters beside NAME concern strain-rate tables, which are in other keywords.
+    check_parameters(keyword, {"NAME", "RTOL", "SRATEFACTOR", "STRAINRATEREGULARIZATION"});
     lines_.skip_data();
     return true;
   }
@@ -194,7 +138,7 @@ void AbaqusMaterialReader::add_problem(std::string what) {
   current_->problems.push_back({std::move(what), lines_.place()});
 }
 
-void AbaqusMaterialReader::name_others(const AbaqusKeyword& keyword, const std::vector<std::string>& known) {
+void AbaqusMaterialReader::check_parameters(const AbaqusKeyword& keyword, const std::vector<std::string>& known) {
   for (const auto& [name, value] : keyword.parameters)
     if (std::find(known.begin(), known.end(), name) == known.end())
       add_problem(fmt::format("{}, {} is not read", keyword.spelled, name));
@@ -202,12 +146,11 @@ void AbaqusMaterialReader::name_others(const AbaqusKeyword& keyword, const std::
 
 AbaqusMaterial::Rows AbaqusMaterialReader::constants(const AbaqusKeyword& keyword,
                                                      const std::vector<std::string>& known) {
-  name_others(keyword, known);
+  check_parameters(keyword, known);
   AbaqusMaterial::Rows rows;
   while (!lines_.at_keyword()) {
     const auto& fields = lines_.data();
-    if (!fields.empty() && !fields[0].empty() &&
-        (std::isalpha(static_cast<unsigned char>(fields[0][0])) || fields[0][0] == '_')) {
+    if (!fields.empty() && abaqus_is_name(fields[0])) {
       add_problem(fmt::format("{} by a distribution is not read", keyword.spelled));
       continue;
     }

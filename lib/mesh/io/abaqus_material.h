@@ -1,4 +1,4 @@
-// *MATERIAL of an Abaqus input file: its *ELASTIC and *DENSITY, and what it has beside them.
+// *MATERIAL of an Abaqus input file: *ELASTIC, *DENSITY, and the names of its other keywords.
 //
 // Source: Abaqus keywords reference, *MATERIAL, *ELASTIC, *DENSITY.
 #pragma once
@@ -13,7 +13,7 @@
 namespace orthodyn {
 
 struct AbaqusMaterial {
-  // Why there are no constants, and where that stands.
+  // A message and its place in the file.
   struct Problem {
     std::string what;
     FilePlace place;
@@ -21,31 +21,30 @@ struct AbaqusMaterial {
   using Rows = std::vector<std::vector<double>>;
 
   std::string name = {};
-  std::string type = {};  // of *ELASTIC: "ISOTROPIC", or another word in capitals without blanks
+  std::string type = {};  // TYPE of *ELASTIC in capitals without blanks: "ISOTROPIC"
   Rows elastic = {}, density = {};
-  std::vector<Problem> problems = {};
-  std::vector<Problem> beyond = {};     // what is more than linear elasticity: "*PLASTIC", which changes the motion
-  std::vector<std::string> inert = {};  // what changes nothing without temperatures and fields: "*EXPANSION"
+  std::vector<Problem> problems = {};   // why the constants cannot be read
+  std::vector<Problem> beyond = {};     // keywords beyond linear elasticity, which change the motion: "*PLASTIC"
+  std::vector<std::string> inert = {};  // keywords without effect if there are no temperatures or fields: "*EXPANSION"
   FilePlace place = {}, elastic_place = {}, density_place = {};
 };
 
 using AbaqusMaterials = std::map<std::string, AbaqusMaterial>;  // by name in capitals
 
-// Takes what belongs to materials out of the keywords of a file.
 class AbaqusMaterialReader {
  public:
-  // Both must outlive this.
+  // Both must outlive the reader.
   AbaqusMaterialReader(AbaqusLines& lines, AbaqusMaterials& materials) : lines_(lines), materials_(materials) {}
 
-  // Whether this keyword begins a material or belongs to the one that began last; its lines of data are taken then. A
-  // material ends with a keyword of another part of the model. What is no number, or depends on more than its place,
-  // is a problem only for those who want the material.
+  // Reads the keyword and its data lines if it begins or continues a material; otherwise returns false, and the
+  // material ends. Unsupported parameters and tables become problems of the material, which are errors only if it is
+  // used.
   bool read(const AbaqusKeyword& keyword);
 
  private:
-  void add_problem(std::string what);  // at the line that was last taken
-  // Parameters that are not known are problems.
-  void name_others(const AbaqusKeyword& keyword, const std::vector<std::string>& known);
+  void add_problem(std::string what);  // at the line read last
+  // Adds a problem for each parameter that is not in `known`.
+  void check_parameters(const AbaqusKeyword& keyword, const std::vector<std::string>& known);
   AbaqusMaterial::Rows constants(const AbaqusKeyword& keyword, const std::vector<std::string>& known);
 
   AbaqusLines& lines_;
@@ -53,8 +52,8 @@ class AbaqusMaterialReader {
   AbaqusMaterial* current_ = nullptr;
 };
 
-// The constants of *ELASTIC and *DENSITY in the file's own units, or the first problem that prevents it, each with its
-// place in the draft's files. ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC and ANISOTROPIC are read.
+// The constants of *ELASTIC and *DENSITY in the units of the file, or the first problem, with its place. Supported
+// types: ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC and ANISOTROPIC.
 MeshMaterial mesh_material(const AbaqusMaterial& material, const MeshDraft& draft);
 
 }  // namespace orthodyn

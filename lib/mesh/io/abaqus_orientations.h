@@ -1,4 +1,4 @@
-// *ORIENTATION and *DISTRIBUTION of an Abaqus input file: material axes, by section or by element.
+// *ORIENTATION and *DISTRIBUTION of an Abaqus input file: material axes per section or per element.
 //
 // Source: Abaqus keywords reference, *ORIENTATION, *DISTRIBUTION, *DISTRIBUTION TABLE.
 #pragma once
@@ -13,19 +13,19 @@ namespace orthodyn {
 
 class AbaqusOrientationReader {
  public:
-  // All must outlive this.
+  // All arguments must outlive the reader.
   AbaqusOrientationReader(AbaqusLines& lines, const AbaqusScopes& scopes, AbaqusFile& file)
       : lines_(lines), scopes_(scopes), file_(file) {}
 
-  // Takes these keywords into the file, with their lines of data. False for other keywords. Throws ConfigError.
+  // Reads one of these keywords and its data lines into the file. Returns false for other keywords. Throws ConfigError.
   bool read(const AbaqusKeyword& keyword);
 
  private:
   void read_orientation(const AbaqusKeyword& keyword);
   void check_points(const AbaqusOrientation& orientation, std::size_t points) const;
-  void read_turn(AbaqusOrientation& out);
+  void read_rotation(AbaqusOrientation& out);
   void read_table(const AbaqusKeyword& keyword);
-  std::size_t values_of(const AbaqusKeyword& keyword) const;
+  std::size_t values_per_row(const AbaqusKeyword& keyword) const;
   void read_distribution(const AbaqusKeyword& keyword);
 
   AbaqusLines& lines_;

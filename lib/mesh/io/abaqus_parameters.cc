@@ -1,5 +1,4 @@
-#include "lib/mesh/io/abaqus_parameters.h"
-
+// Implements check_abaqus_parameters().
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,27 +6,28 @@
 #include <vector>
 
 #include "lib/core/spelling.h"
+#include "lib/mesh/io/abaqus_lines.h"
 
 namespace orthodyn {
 namespace {
 
 struct Parameters {
   std::vector<std::string> used, harmless;
-  std::map<std::string, const char*> refused = {};  // with what to do
+  std::map<std::string, const char*> refused = {};  // each with the remedy
 };
 
 // By keyword. Source: Abaqus keywords reference, 2016 to 2024.
 const std::map<std::string, Parameters>& parameter_table() {
-  constexpr const char* kPlies = "plies through one element are not read; mesh each ply with elements of its own";
-  constexpr const char* kWhole = "only surfaces that list faces of elements are read; list them";
-  constexpr const char* kImport = "what an earlier analysis left is not read; write the part itself";
+  constexpr const char* kPlies = "several plies in one element are not supported; mesh each ply with its own elements";
+  constexpr const char* kWhole = "only surfaces that list faces of elements are supported; list the faces";
+  constexpr const char* kImport = "results of an earlier analysis are not read; write the part itself";
   static const std::map<std::string, Parameters> all{
       {"NODE", {{"NSET", "SYSTEM", "INPUT"}, {}}},
       {"ELEMENT",
        {{"TYPE", "ELSET", "INPUT"},
-        {"SOLIDELEMENTNUMBERING"},  // of acoustic infinite elements' and cohesive layers' own output
-        {{"FILE", "elements of a substructure are not read"},
-         {"OFFSET", "it adds to numbers of nodes; write the numbers themselves"}}}},
+        {"SOLIDELEMENTNUMBERING"},  // affects the output of acoustic infinite elements and cohesive layers
+        {{"FILE", "elements of a substructure are not supported"},
+         {"OFFSET", "offsets of node numbers are not supported; write the numbers themselves"}}}},
       {"NSET", {{"NSET", "ELSET", "GENERATE", "INSTANCE", "INPUT"}, {"INTERNAL", "UNSORTED"}}},
       {"ELSET", {{"ELSET", "GENERATE", "INSTANCE", "INPUT"}, {"INTERNAL", "UNSORTED"}}},
       {"SURFACE",
@@ -46,11 +46,12 @@ const std::map<std::string, Parameters>& parameter_table() {
       {"ORIENTATION",
        {{"NAME", "SYSTEM", "DEFINITION"},
         {},
-        {{"LOCALDIRECTIONS", "axes of fibres within the axes are not read; turn the orientation itself"}}}},
+        {{"LOCALDIRECTIONS",
+          "fibre directions relative to the axes are not supported; rotate the orientation itself"}}}},
       {"DISTRIBUTION",
        {{"NAME", "LOCATION", "TABLE", "INPUT"},
         {},
-        {{"DESIGNVARIABLE", "it is read by adjoint analyses only"},
+        {{"DESIGNVARIABLE", "it is for adjoint analyses only"},
          {"EXTERNALFIELD", "values of an output database are not read; list them"}}}},
       {"DISTRIBUTIONTABLE", {{"NAME"}, {}}},
       {"PART", {{"NAME"}, {}}},
@@ -59,7 +60,7 @@ const std::map<std::string, Parameters>& parameter_table() {
       {"ENDPART", {}},
       {"ENDINSTANCE", {}},
       {"ENDASSEMBLY", {}},
-      {"INCLUDE", {{"INPUT"}, {}, {{"PASSWORD", "files that are encrypted are not read"}}}},
+      {"INCLUDE", {{"INPUT"}, {}, {{"PASSWORD", "encrypted files are not supported"}}}},
   };
   return all;
 }

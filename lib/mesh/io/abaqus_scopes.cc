@@ -1,12 +1,7 @@
 #include "lib/mesh/io/abaqus_scopes.h"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <numbers>
-
-#include "lib/core/spelling.h"
-#include "lib/mesh/io/abaqus_lines.h"
 
 namespace orthodyn {
 
@@ -15,15 +10,14 @@ AbaqusMembers abaqus_number_member(std::int64_t number, FilePlace place) {
 }
 
 void AbaqusScopes::enter(const std::string& name) {
-  if (instances_.contains(in_capitals(name)))
-    lines_.fail(fmt::format("a second *INSTANCE {}", TextTokens::quoted(name)));
-  now_ = {name, next_offset(), read_placement()};
-  instances_.emplace(in_capitals(name), now_);
+  if (instances_.contains(in_capitals(name))) lines_.fail("*INSTANCE {} is defined twice", TextTokens::quoted(name));
+  current_ = {name, next_offset(), read_placement()};
+  instances_.emplace(in_capitals(name), current_);
 }
 
 const AbaqusScope& AbaqusScopes::instance(const std::string& name) const {
   const auto found = instances_.find(in_capitals(name));
-  if (found == instances_.end()) lines_.fail(fmt::format("no *INSTANCE {}", TextTokens::quoted(name)));
+  if (found == instances_.end()) lines_.fail("no *INSTANCE {}", TextTokens::quoted(name));
   return found->second;
 }
 
@@ -33,8 +27,7 @@ std::int64_t AbaqusScopes::offset_of(const AbaqusScope& scope) const {
 
 std::int64_t AbaqusScopes::number(std::string_view field, const char* what, std::int64_t offset) const {
   const std::int64_t found = lines_.integer(field, what);
-  if (found < 0 || found >= kAbaqusAssembly)
-    lines_.fail(fmt::format("{} is {}; it must be between 0 and 10^15", what, found));
+  if (found < 0 || found >= kAbaqusAssembly) lines_.fail("{} is {}; it must be between 0 and 10^15", what, found);
   return found + offset;
 }
 
@@ -52,11 +45,12 @@ AbaqusMembers AbaqusScopes::member_within(std::string_view field, const AbaqusSc
   const bool is_number =
       !field.empty() && (std::isdigit(static_cast<unsigned char>(field[0])) || field[0] == '-' || field[0] == '+');
   if (is_number) return abaqus_number_member(number(field, "a number", offset_of(scope)), lines_.place());
-  if (field.empty()) lines_.fail("an empty place among the members of a set");
+  if (field.empty()) lines_.fail("an empty field among the members of a set");
   return {.set = scope.key(std::string(field)), .place = lines_.place()};
 }
 
-// Behind the numbers of earlier instances, and so that the part's own numbers can be read in the sum.
+// Returns a multiple of a power of ten above all earlier numbers, so that a number plus the offset still shows the
+// number within the part.
 std::int64_t AbaqusScopes::next_offset() const {
   if (instances_.empty()) return 0;
   std::int64_t power = 1000;
@@ -64,7 +58,7 @@ std::int64_t AbaqusScopes::next_offset() const {
   return power * static_cast<std::int64_t>(instances_.size());
 }
 
-// A shift, then a turn about the line from a to b.
+// Reads a translation, then a rotation about the line from a to b.
 AbaqusPlacement AbaqusScopes::read_placement() {
   AbaqusPlacement placement;
   if (lines_.at_keyword()) return placement;
@@ -82,7 +76,7 @@ AbaqusPlacement AbaqusScopes::read_placement() {
     lines_.fail("*INSTANCE: expected two different points of the axis of rotation and an angle in degrees");
   placement.R = Eigen::AngleAxisd(angle, (b - a).normalized()).toRotationMatrix();
   placement.t = a + placement.R * (placement.t - a);
-  if (!lines_.at_keyword()) lines_.fail("*INSTANCE: a third line of data; expected a translation and a rotation");
+  if (!lines_.at_keyword()) lines_.fail("*INSTANCE: a third data line; expected a translation and a rotation");
   return placement;
 }
 

@@ -1,4 +1,4 @@
-// Parts and instances of an Abaqus input file: what numbers and names mean where they stand.
+// Parts and instances of an Abaqus input file: scopes for names and for node and element numbers.
 //
 // Source: Abaqus keywords reference, *INSTANCE; analysis user's guide, "Assembly definition".
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace orthodyn {
 
-// What a keyword is within: the model or assembly (no name), or an instance.
+// The scope of the model or assembly (without a name), or of an instance.
 struct AbaqusScope {
   std::string instance = {};  // as spelled
-  std::int64_t offset = 0;    // is added to numbers of nodes and elements
+  std::int64_t offset = 0;    // added to node and element numbers
   AbaqusPlacement placement = {};
 
   std::string key(const std::string& name) const {
@@ -24,7 +24,7 @@ struct AbaqusScope {
   }
 };
 
-// A member that is one number.
+// A listed member of a set: one number.
 AbaqusMembers abaqus_number_member(std::int64_t number, FilePlace place);
 
 class AbaqusScopes {
@@ -32,29 +32,30 @@ class AbaqusScopes {
   // `lines` must outlive this.
   explicit AbaqusScopes(AbaqusLines& lines) : lines_(lines) {}
 
-  const AbaqusScope& now() const { return now_; }
+  const AbaqusScope& current() const { return current_; }
   const std::map<std::string, AbaqusScope>& instances() const { return instances_; }  // by name in capitals
 
-  // Begins an *INSTANCE of this name: reads its placement, and adds an offset to its numbers. Throws ConfigError.
+  // Begins an *INSTANCE: reads its placement and chooses its offset. Throws ConfigError.
   void enter(const std::string& name);
-  // Ends it.
-  void leave() { now_ = {}; }
+  // Ends the current instance.
+  void leave() { current_ = {}; }
 
   // The instance of a name. Throws ConfigError if there is none.
   const AbaqusScope& instance(const std::string& name) const;
 
-  // What is added to the numbers of a scope: the assembly has nodes beside those of its instances.
+  // The offset of numbers in a scope. An assembly with instances has an offset too, since it may define nodes itself.
   std::int64_t offset_of(const AbaqusScope& scope) const;
-  std::int64_t offset() const { return offset_of(now_); }
+  std::int64_t offset() const { return offset_of(current_); }
 
-  // A number of a node or an element in this scope, with the offset. `what` is for messages. Throws ConfigError.
+  // A node or element number in the current scope, plus the offset. `what` is for messages. Throws ConfigError.
   std::int64_t number(std::string_view field, const char* what) const { return number(field, what, offset()); }
-  // Tells that a part has this number, without the offset: later instances get larger ones.
-  void note(std::int64_t number) { largest_ = std::max(largest_, number); }
+  // Records a number (without offset) of a part; offsets of later instances exceed all recorded numbers.
+  void record_number(std::int64_t number) { largest_ = std::max(largest_, number); }
 
-  // A number or a set, with the name of an instance in front, or else in the given scope. Throws ConfigError.
+  // Reads a number or the name of a set. A name with a prefix ("I.Side") belongs to that instance, others to `scope`.
+  // Throws ConfigError.
   AbaqusMembers member(std::string_view field, const AbaqusScope& scope) const;
-  AbaqusMembers member(std::string_view field) const { return member(field, now_); }
+  AbaqusMembers member(std::string_view field) const { return member(field, current_); }
 
  private:
   std::int64_t number(std::string_view field, const char* what, std::int64_t offset) const;
@@ -63,9 +64,9 @@ class AbaqusScopes {
   AbaqusPlacement read_placement();
 
   AbaqusLines& lines_;
-  AbaqusScope now_;
+  AbaqusScope current_;
   std::map<std::string, AbaqusScope> instances_;
-  std::int64_t largest_ = 0;  // number of a node or an element of a part
+  std::int64_t largest_ = 0;  // the largest recorded number
 };
 
 }  // namespace orthodyn

@@ -11,7 +11,7 @@
 namespace orthodyn {
 namespace {
 
-// Types that differ in their formulation and share nodes.
+// Types with the same nodes that differ in their formulation.
 struct SolidFamily {
   AbaqusShape shape;
   std::vector<std::string> types;
@@ -35,7 +35,7 @@ const std::vector<SolidFamily>& solid_families() {
   return families;
 }
 
-// Whether a type is this one, alone or with letters behind it: of faces, any.
+// Whether a face type is `name`, possibly followed by letters.
 bool is_face_type(const std::string& type, std::string_view name) {
   return type.starts_with(name) && type.find_first_of("0123456789V", name.size()) == std::string::npos;
 }

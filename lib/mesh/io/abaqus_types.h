@@ -1,6 +1,6 @@
-// Element types of Abaqus by name: what elements of a type are read as.
+// Element types of Abaqus by name.
 //
-// Source: Abaqus elements guide, "three-dimensional solid element library"; C3D10I is of older versions.
+// Source: Abaqus elements guide, "three-dimensional solid element library"; C3D10I: older versions.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,11 @@
 namespace orthodyn {
 
 struct AbaqusShape {
-  std::size_t nodes = 0, corners = 0;  // in the file; the first of them
-  std::optional<CellKind> solid = {};  // else a face
+  std::size_t nodes = 0, corners = 0;  // nodes per element, of which the first `corners` are corners
+  std::optional<CellKind> solid = {};  // empty: a face
 };
 
-// By a name in capitals. None if it is no solid element that is read, and none of planes, shells, membranes and rigid
-// bodies.
+// `type` in capitals. Empty unless it is a supported solid, plane, shell, membrane or rigid element.
 std::optional<AbaqusShape> abaqus_shape(const std::string& type);
 
 // "tetrahedra (C3D4, C3D4H, ...), ..., pyramids (...)"

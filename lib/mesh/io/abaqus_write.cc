@@ -1,4 +1,4 @@
-// Abaqus: one block of C3D4, then the sets.
+// Implements write_abaqus(): nodes, one block of C3D4 or C3D10, then sets and surfaces.
 #include <algorithm>
 #include <cctype>
 #include <span>
@@ -14,7 +14,7 @@
 namespace orthodyn {
 namespace {
 
-// Within quotes only these cannot stand, and blanks at the edges are none of the name.
+// Replaces the characters that even a quoted name cannot contain, and blanks at its ends.
 std::string abaqus_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '"'; }, '_');
@@ -23,7 +23,7 @@ std::string abaqus_name(std::string name) {
   return name;
 }
 
-// In quotes only where it must be: some readers take the quotes for a part of the name.
+// Quotes only if necessary: some readers treat them as part of the name.
 std::string quoted_if_needed(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; };
   const bool is_plain = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) &&
@@ -31,18 +31,17 @@ std::string quoted_if_needed(const std::string& name) {
   return is_plain ? name : "\"" + name + "\"";
 }
 
-// "*ELSET, ELSET=name" and the numbers, sixteen on a line.
+// "*ELSET, ELSET=name" and the numbers, sixteen per line.
 void add_set(TextLines& lines, const std::string& keyword, const std::string& name, std::span<const int> numbers) {
   lines.line("*" + keyword, keyword + "=" + quoted_if_needed(name));
-  for (; !numbers.empty(); numbers = numbers.subspan(std::min<std::size_t>(16, numbers.size()))) {
+  for (; !numbers.empty(); numbers = numbers.subspan(std::min<std::size_t>(16, numbers.size())))
     lines.line(numbers.first(std::min<std::size_t>(16, numbers.size())));
-  }
 }
 
-// S1 ... S4 if the triangle is that face of the tet, in this sense of rotation if `oriented`; else 0.
+// 1 to 4 for S1 to S4 if the triangle is that face of the tet (with the same orientation if `oriented`), otherwise 0.
 int side_of(const Tet& tet, const Triangle& triangle, bool oriented) {
   for (std::size_t side = 0; side < 4; ++side) {
-    const Places& places = faces_of(CellKind::tet)[side];
+    const CornerIndices& places = faces_of(CellKind::tet)[side];
     Triangle face{tet[places[0]], tet[places[1]], tet[places[2]]};
     for (int turn = 0; oriented && turn < 3; ++turn) {
       if (face == triangle) return static_cast<int>(side) + 1;
@@ -56,7 +55,8 @@ int side_of(const Tet& tet, const Triangle& triangle, bool oriented) {
   return 0;
 }
 
-// An inner triangle is a face of two tets; the one that sees it the same way round is named.
+// The number (from 1) of a tet and the side, 1 to 4, that is this triangle. For an inner triangle, the tet on which it
+// has the same orientation is preferred.
 std::pair<int, int> element_and_side(const TetMesh& mesh, const std::vector<TetFace>& faces, const Triangle& triangle) {
   Triangle key = triangle;
   sort_nodes(key);
@@ -68,7 +68,7 @@ std::pair<int, int> element_and_side(const TetMesh& mesh, const std::vector<TetF
       if (side > 0) return {it->tet + 1, side};
     }
   }
-  return {0, 0};  // not a face: no valid mesh
+  return {0, 0};  // not a face: the mesh is invalid
 }
 
 void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
@@ -79,7 +79,7 @@ void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
   for (std::size_t e = 0; e < cells.size(); ++e) lines.line(e + 1, FromOne{cells[e]});
 }
 
-// Gives sets their names in the file.
+// Unique names of sets in the file.
 class AbaqusNames {
  public:
   explicit AbaqusNames(Warnings& losses) : losses_(losses) {}
@@ -92,13 +92,11 @@ class AbaqusNames {
 
 void add_regions(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
   std::vector<std::vector<int>> members(mesh.region_names.size());
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
     members[static_cast<std::size_t>(mesh.region_of[e])].push_back(static_cast<int>(e) + 1);
-  }
   AbaqusNames names(losses);
-  for (std::size_t r = 0; r < members.size(); ++r) {
+  for (std::size_t r = 0; r < members.size(); ++r)
     add_set(lines, "ELSET", names.give(mesh.region_names[r]), members[r]);
-  }
 }
 
 void add_node_sets(TextLines& lines, const TetMesh& mesh, Warnings& losses) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "lib/core/spelling.h"
-#include "lib/mesh/io/gmsh_binary.h"
 #include "lib/mesh/io/gmsh_file.h"
 #include "lib/mesh/io/text_tokens.h"
 
@@ -21,8 +20,8 @@ namespace {
 constexpr const char* kKinds[] = {"points", "curve", "surface", "volume"};
 constexpr const char* kParts[] = {"nodes", "lines of first or second order", "faces", "solid elements"};
 
-// Turns what the file says into a draft; takes the nodes out of the file. The file and the tokens, which name it in
-// messages, must outlive it.
+// Builds the draft of a file; moves the nodes out of the file. `file` and `tokens` (for messages) must outlive the
+// builder.
 class MeshBuilder {
  public:
   MeshBuilder(GmshFile& file, const TextTokens& tokens) : file_(file), tokens_(tokens) {}
@@ -42,16 +41,12 @@ class MeshBuilder {
 
  private:
   void check_sections() const {
-    for (const char* name : {"Nodes", "Elements"}) {
-      if (!file_.section_lines.contains(name)) {
-        tokens_.fail(fmt::format("the file ends without ${}; is it truncated?", name));
-      }
-    }
+    for (const char* name : {"Nodes", "Elements"})
+      if (!file_.section_lines.contains(name)) tokens_.fail("the file ends without ${}; is it truncated?", name);
     if (file_.cells.empty())
-      tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: " + why_no_cells());
+      tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: {}", why_no_cells());
   }
 
-  // Gmsh saves elements of physical groups only, if there are some.
   std::string why_no_cells() const {
     std::vector<std::string> groups;
     bool names_volume = false;
@@ -61,21 +56,20 @@ class MeshBuilder {
     }
     for (const auto& [dim_tag, set] : file_.entity_groups)
       if (groups.empty() && set > 0) groups.push_back("of surfaces, curves or points");
-    if (is_flat())
-      return "this is a 2D mesh, whose nodes lie in one plane; extrude the surface, and mesh in 3D (gmsh -3)";
+    if (is_flat()) return "all nodes lie in one plane: a 2D mesh; extrude the surface, and mesh in 3D (gmsh -3)";
     const auto is_volume = [](const auto& entity) { return entity.first.first == 3; };
     const bool lists_entities = file_.section_lines.contains("Entities");
     const bool has_volume = std::any_of(file_.entity_groups.begin(), file_.entity_groups.end(), is_volume);
     if (!names_volume && !groups.empty() && (has_volume || !lists_entities))
       return fmt::format(
-          "there are physical groups ({}) but no Physical Volume, and Gmsh saves only elements that are in "
-          "a physical group; add one, for example Physical Volume(\"body\") = {{1}}; (or set Mesh.SaveAll "
-          "= 1), and mesh in 3D (gmsh -3)",
+          "there are physical groups ({}) but no Physical Volume, and Gmsh saves only elements that are in a physical "
+          "group; add one, for example Physical Volume(\"body\") = {{1}}; (or set Mesh.SaveAll = 1), and mesh in 3D "
+          "(gmsh -3)",
           join(groups));
     return "did you mesh in 3D (gmsh -3)?";
   }
 
-  // Whether the nodes lie in a plane, of a file that lists no volume.
+  // Whether all nodes lie in one plane and the file lists no volume.
   bool is_flat() const {
     for (const auto& [dim_tag, set] : file_.entity_groups)
       if (dim_tag.first == 3) return false;
@@ -100,33 +94,29 @@ class MeshBuilder {
     return file_.group_sets[static_cast<std::size_t>(element.groups)];
   }
 
-  // The physical tag of a cell, 0 if it has none.
+  // The physical tag of a cell, 0 for none.
   int region_tag(const Grouped<FileCell>& cell) const {
     const std::vector<int>& groups = groups_of(cell);
     if (groups.empty()) return 0;
     for (int group : groups) {
       if (std::abs(group) == std::abs(groups[0])) continue;
-      tokens_.fail_at(
-          cell.element.place.line,
-          fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
-                      "belongs to one region: put its volume in one physical group",
-                      cell.element.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
+      tokens_.fail_at(cell.element.place.line,
+                      "element {}: in two physical volumes, \"{}\" and \"{}\"; an element belongs to one region: put "
+                      "its volume in one physical group",
+                      cell.element.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group)));
     }
     return std::abs(groups[0]);
   }
 
-  // Groups of the same name are one region.
+  // Groups with the same name form one region.
   void add_regions() {
     std::map<int, int> cells_with;
     for (const Grouped<FileCell>& cell : file_.cells) ++cells_with[region_tag(cell)];
-    for (const auto& [tag, cells] : cells_with) {
+    for (const auto& [tag, cells] : cells_with)
       region_index_[tag] = draft_.region_index(tag == 0 ? "body" : group_name(3, tag));
-    }
-    if (cells_with.contains(0) && cells_with.size() > 1) {
-      draft_.warnings.push_back(
-          fmt::format("{}: {} of {} elements are in no physical volume; they are in region \"body\"", tokens_.path(),
-                      cells_with[0], file_.cells.size()));
-    }
+    if (cells_with.contains(0) && cells_with.size() > 1)
+      draft_.warn({}, "{} of {} elements are in no physical volume; they are in region \"body\"", cells_with[0],
+                  file_.cells.size());
   }
 
   void add_cells() {
@@ -137,7 +127,7 @@ class MeshBuilder {
     }
   }
 
-  // A negative tag means that the group is oriented against the face.
+  // A negative tag means that the group has the opposite orientation.
   void add_surfaces() {
     for (const Grouped<FileFace>& face : file_.faces) {
       for (int tag : groups_of(face)) {
@@ -148,7 +138,7 @@ class MeshBuilder {
     }
   }
 
-  // Physical points and curves; of the same name they are one set.
+  // Physical points and curves; groups with the same name form one set.
   void add_node_sets() {
     const auto add = [&](const std::vector<Grouped<FileNodeUse>>& uses, int dim) {
       for (const Grouped<FileNodeUse>& node : uses)
@@ -168,8 +158,7 @@ class MeshBuilder {
                          (dim == 2 && !draft_.surfaces.contains(used)) ||
                          (dim == 3 && std::count(regions.begin(), regions.end(), used) == 0);
       if (!empty) continue;
-      draft_.warnings.push_back(
-          fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used, kParts[dim]));
+      draft_.warn({}, "physical {} \"{}\" has no {}", kKinds[dim], used, kParts[dim]);
     }
   }
 

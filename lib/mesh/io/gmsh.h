@@ -1,4 +1,4 @@
-// Meshes of solid elements in Gmsh's .msh files, formats 2.0 to 2.2 and 4.1, ASCII or binary (2.2 and 4.1).
+// Reads and writes Gmsh .msh files: formats 2.0 to 2.2 and 4.1, ASCII or binary (2.2 and 4.1).
 //
 // Format: Geuzaine and Remacle, Gmsh reference manual, "MSH file format" and "MSH file format
 // version 2 (Legacy)".
@@ -11,21 +11,20 @@
 
 namespace orthodyn {
 
-// Physical volumes become regions, physical surfaces become surfaces and physical points become node
-// sets, under their names or else as "volume<tag>", "surface<tag>" and "points<tag>". Elements in no physical
-// volume form the region "body". Nodes are numbered by ascending tag, regions by ascending physical tag,
-// elements in the order of the file, so that both formats of one mesh give the same. Coordinates are taken
-// as metres.
+// Physical volumes become regions, physical surfaces become surfaces, physical curves and points become node sets. They
+// keep their names, or are called "volume<tag>", "surface<tag>", "curve<tag>" and "points<tag>". Elements in no
+// physical volume form the region "body". Nodes are numbered by ascending tag, regions by ascending physical tag,
+// elements in file order; so both formats of a mesh give the same result. Coordinates are in metres.
 //
-// Throws ConfigError "file:line: found, remedy" for anything that is not a complete and valid mesh
-// of linear or quadratic tets, or of what is split into tets (see build_mesh() and validate()). Memory use is bounded
-// by the size of the file, whatever counts it announces.
+// Throws ConfigError "file:line: found, remedy" unless the file is a complete, valid mesh of linear or quadratic solid
+// elements (see build_mesh() and validate()). Memory use is bounded by the file size, whatever counts the file
+// announces.
 LoadedMesh read_gmsh(const std::string& path);
 
-// The same from a text, or from bytes, whose messages name the lines of the same file in ASCII; `path` is for messages.
+// Reads from a text or from bytes; messages for a binary file refer to lines of its ASCII form. `path` is for messages.
 LoadedMesh read_gmsh_text(const std::string& path, std::string_view text);
 
-// Regions, surfaces and node sets as physical volumes, surfaces and points.
+// Write regions, surfaces and node sets as physical volumes, surfaces and points.
 WrittenMesh write_gmsh22(const LoadedMesh& loaded);
 WrittenMesh write_gmsh41(const LoadedMesh& loaded);
 

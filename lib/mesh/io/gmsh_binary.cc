@@ -1,5 +1,4 @@
-#include "lib/mesh/io/gmsh_binary.h"
-
+// Implements ascii_of_binary_gmsh().
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +35,10 @@ class BinaryGmsh {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw ConfigError(path_, fmt::format("byte {} of a binary Gmsh file: {}", at_, message));
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
+    throw ConfigError(
+        path_, fmt::format("byte {} of a binary Gmsh file: ", at_) + fmt::format(message, std::forward<Args>(args)...));
   }
 
   template <class... Values>
@@ -46,7 +47,7 @@ class BinaryGmsh {
   }
   void end_line() { text_ += '\n'; }
 
-  // Up to the end of the line, which is left behind.
+  // Takes the rest of the line, without its end.
   std::string_view line() {
     const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
     std::string_view found = bytes_.substr(at_, end - at_);
@@ -66,11 +67,10 @@ class BinaryGmsh {
 
   std::int32_t take_int() { return take<std::int32_t>(); }
 
-  // Of records of so many bytes each: no more than there is room for.
+  // The number of records of `bytes_of_each` bytes. Fails if the rest of the file is too short for them.
   std::uint64_t take_count(std::size_t bytes_of_each) { return checked(take<std::uint64_t>(), bytes_of_each); }
   std::uint64_t checked(std::uint64_t count, std::size_t bytes_of_each) const {
-    if (count > (bytes_.size() - at_) / bytes_of_each)
-      fail(fmt::format("{} records announced; is it truncated?", count));
+    if (count > (bytes_.size() - at_) / bytes_of_each) fail("{} records announced; is it truncated?", count);
     return count;
   }
 
@@ -80,18 +80,16 @@ class BinaryGmsh {
     const std::string_view format = line();
     version_ = std::string(format.substr(0, format.find(' ')));
     if (version_ != "2.2" && version_ != "4.1")
-      fail(fmt::format("format {}; binary files of 2.2 and 4.1 are read: save it as one of these",
-                       TextTokens::quoted(version_)));
-    if (take_int() != 1) fail("the numbers are of another byte order; save it on this machine, or as ASCII");
+      fail("format {}; binary files of 2.2 and 4.1 are read: save it as one of these", TextTokens::quoted(version_));
+    if (take_int() != 1) fail("the numbers have another byte order; save the file on this machine, or as ASCII");
     text_ = fmt::format("$MeshFormat\n{} 0 8\n$EndMeshFormat\n", version_);
     skip_section("$MeshFormat");
   }
 
-  // Its bytes may hold anything but the end of it.
   void skip_section(const std::string& section) {
     const std::string end = "$End" + (section.empty() ? section : section.substr(1));
     const std::size_t found = bytes_.find(end, at_);
-    if (found == std::string_view::npos) fail("no " + end + "; is the file truncated?");
+    if (found == std::string_view::npos) fail("no {}; is the file truncated?", end);
     at_ = found + end.size();
   }
 
@@ -114,7 +112,7 @@ class BinaryGmsh {
   std::uint64_t count_line() {
     const std::string_view found = line();
     std::uint64_t count = 0;
-    if (!parse_number(found, count)) fail("expected a number of records, found " + TextTokens::quoted(found));
+    if (!parse_number(found, count)) fail("expected a number of records, found {}", TextTokens::quoted(found));
     add(count);
     end_line();
     return count;
@@ -137,13 +135,13 @@ class BinaryGmsh {
     });
   }
 
-  // Blocks of elements of one type with one number of tags.
+  // Blocks of elements with the same type and the same number of tags.
   void read_elements() {
     write_section("$Elements", [&] {
       const std::uint64_t all = count_line();
       for (std::uint64_t done = 0; done < all;) {
         const std::int32_t type = take_int(), count = take_int(), tags = take_int();
-        if (count < 1 || tags < 0 || tags > 1000) fail(fmt::format("a block of {} elements with {} tags", count, tags));
+        if (count < 1 || tags < 0 || tags > 1000) fail("a block of {} elements with {} tags", count, tags);
         const std::size_t nodes = nodes_of(type);
         checked(static_cast<std::uint64_t>(count), 4 * (1 + static_cast<std::size_t>(tags) + nodes));
         for (std::int32_t i = 0; i < count; ++i) {

@@ -16,9 +16,8 @@ constexpr const char* kConvert = "save it as ASCII 2.2 or 4.1: \"gmsh in.msh -sa
 GmshSection begin_section(TextTokens& tokens) {
   const int line = tokens.line();
   const std::string_view word = tokens.word("a section");
-  if (word.size() < 2 || word[0] != '$') {
-    tokens.fail(fmt::format("expected the start of a section ($...), found {}", TextTokens::quoted(word)));
-  }
+  if (word.size() < 2 || word[0] != '$')
+    tokens.fail("expected the start of a section ($...), found {}", TextTokens::quoted(word));
   GmshSection section{std::string(word.substr(1)), line};
   tokens.finish_line();
   return section;
@@ -31,19 +30,18 @@ void skip_section(TextTokens& tokens, const GmshSection& section) {
     tokens.skip_line();
     if (ended) return;
   }
-  tokens.fail(fmt::format("the file ends inside {} (line {}); is it truncated?", TextTokens::quoted("$" + section.name),
-                          section.line));
+  tokens.fail("the file ends inside {} (line {}); is it truncated?", TextTokens::quoted("$" + section.name),
+              section.line);
 }
 
-// The text between the first and the last quote: names may hold blanks and quotes.
+// The text between the first and the last quote; names may contain blanks and quotes.
 std::string read_name(TextTokens& tokens) {
   tokens.peek();
   std::string_view rest = tokens.rest_of_line();
   const std::size_t last = rest.find_last_not_of(" \t\r");
   rest = rest.substr(0, last == std::string_view::npos ? 0 : last + 1);
-  if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"') {
-    tokens.fail(fmt::format("expected a name in quotes, found {}", TextTokens::quoted(rest)));
-  }
+  if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"')
+    tokens.fail("expected a name in quotes, found {}", TextTokens::quoted(rest));
   return std::string(rest.substr(1, rest.size() - 2));
 }
 
@@ -53,40 +51,33 @@ void read_names(TextTokens& tokens, const GmshSection& section, GmshFile& file, 
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "names");
     const std::int64_t dim = with_dimension ? tokens.integer("the dimension of a physical group") : kAnyDimension;
-    if (with_dimension && (dim < 0 || dim > 3)) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
+    if (with_dimension && (dim < 0 || dim > 3)) tokens.fail("dimension {}; expected 0 to 3", dim);
     const int tag = read_tag(tokens, "the tag of a physical group");
-    if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens)).second) {
-      tokens.fail(fmt::format("physical group {} of dimension {} is named twice", tag, dim));
-    }
+    if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens)).second)
+      tokens.fail("physical group {} of dimension {} is named twice", tag, dim);
     tokens.skip_line();
   }
   end_section(tokens, section);
 }
 
-void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
-  read_names(tokens, section, file, true);
-}
-
-void read_names_without_dimension(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
-  read_names(tokens, section, file, false);
-}
-
 [[noreturn]] void refuse_version(const TextTokens& tokens, int line, const std::string& version) {
-  tokens.fail_at(line, fmt::format("Gmsh format {}; only 2.0 to 2.2 and 4.1 are read; {}", version, kConvert));
+  tokens.fail_at(line, "Gmsh format {} is not supported; supported: 2.0 to 2.2 and 4.1; {}", version, kConvert);
 }
 
-// Leaves the cursor behind $EndMeshFormat.
+// Leaves the cursor after $EndMeshFormat.
 GmshSectionReaders read_format(TextTokens& tokens, const GmshSection& section) {
   const double version = tokens.real("the version of the format");
   const std::int64_t binary = tokens.integer("the file type (0 = ASCII)");
-  const bool second = version == 2 || version == 2.1 || version == 2.2;  // 2.0 has names of groups without dimension
+  const bool second = version == 2 || version == 2.1 || version == 2.2;  // names of groups in 2.0 have no dimension
   if (!second && version != 4.1) refuse_version(tokens, tokens.line(), fmt::format("{}", version));
-  if (binary != 0) tokens.fail(fmt::format("file type {}; {}", binary, kConvert));
+  if (binary != 0) tokens.fail("file type {}; {}", binary, kConvert);
   tokens.integer("the size of numbers");
   tokens.finish_line();
   end_section(tokens, section);
   GmshSectionReaders readers = second ? gmsh_v2_sections() : gmsh_v4_sections();
-  readers["PhysicalNames"] = version == 2 ? read_names_without_dimension : read_physical_names;
+  readers["PhysicalNames"] = [with_dimension = version != 2](TextTokens& t, const GmshSection& s, GmshFile& f) {
+    read_names(t, s, f, with_dimension);
+  };
   return readers;
 }
 
@@ -115,9 +106,8 @@ GmshFile read_gmsh_sections(TextTokens& tokens) {
       continue;
     }
     const auto [first, is_new] = file.section_lines.emplace(section.name, section.line);
-    if (!is_new) {
-      tokens.fail_at(section.line, fmt::format("a second ${} (the first is in line {})", section.name, first->second));
-    }
+    if (!is_new)
+      tokens.fail_at(section.line, "section ${} occurs twice (first in line {})", section.name, first->second);
     reader->second(tokens, section, file);
   }
   return file;
@@ -126,34 +116,26 @@ GmshFile read_gmsh_sections(TextTokens& tokens) {
 int read_tag(TextTokens& tokens, const char* what) {
   const std::int64_t tag = tokens.integer(what);
   constexpr std::int64_t kMax = std::numeric_limits<int>::max();
-  if (tag < -kMax || tag > kMax) {
-    tokens.fail(fmt::format("{} is {}; at most {} is allowed", what, tag, kMax));
-  }
+  if (tag < -kMax || tag > kMax) tokens.fail("{} is {}; at most {} is allowed", what, tag, kMax);
   return static_cast<int>(tag);
 }
 
 void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done, std::int64_t announced,
                    const char* records) {
-  if (tokens.at_end()) {
-    tokens.fail(fmt::format("the file ends after {} of {} {} (${} in line {}); is it truncated?", done, announced,
-                            records, section.name, section.line));
-  }
-  if (tokens.peek() == '$') {
-    tokens.fail(fmt::format("found {} after {} of the {} {} announced (${} in line {})",
-                            TextTokens::quoted(tokens.word("a word")), done, announced, records, section.name,
-                            section.line));
-  }
+  if (tokens.at_end())
+    tokens.fail("the file ends after {} of {} {} (${} in line {}); is it truncated?", done, announced, records,
+                section.name, section.line);
+  if (tokens.peek() == '$')
+    tokens.fail("found {} after {} of the {} {} announced (${} in line {})", TextTokens::quoted(tokens.word("a word")),
+                done, announced, records, section.name, section.line);
 }
 
 void end_section(TextTokens& tokens, const GmshSection& section) {
   const std::string end = "$End" + section.name;
   const std::string_view found = tokens.word(end.c_str());
-  if (found != end) {
-    tokens.fail(
-        fmt::format("expected {}, found {}; the count at the start of the section (line {}) "
-                    "may be too small",
-                    end, TextTokens::quoted(found), section.line));
-  }
+  if (found != end)
+    tokens.fail("expected {}, found {}; the count at the start of the section (line {}) may be too small", end,
+                TextTokens::quoted(found), section.line);
   tokens.finish_line();
 }
 
@@ -194,12 +176,12 @@ GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
   const auto found = types.find(type);
   if (found != types.end()) return found->second;
   tokens.fail(
-      fmt::format("element type {}; only tetrahedra, hexahedra, prisms and pyramids of first or second order are "
-                  "read, with triangles, quadrangles, lines and points: set Mesh.ElementOrder = 1 or 2",
-                  type));
+      "element type {} is not supported; supported: tetrahedra, hexahedra, prisms and pyramids of first or second "
+      "order, triangles, quadrangles, lines and points: set Mesh.ElementOrder = 1 or 2",
+      type);
 }
 
-// In the order of Gmsh's manual, "node ordering".
+// Edges in the order of Gmsh's manual, "node ordering".
 const std::vector<std::array<std::size_t, 2>>& gmsh_edges_of(CellKind kind) {
   using Edges = std::vector<std::array<std::size_t, 2>>;
   static const Edges pyramid{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}};
@@ -209,7 +191,7 @@ const std::vector<std::array<std::size_t, 2>>& gmsh_edges_of(CellKind kind) {
   return kind == CellKind::pyramid ? pyramid : kind == CellKind::wedge ? wedge : hexahedron;
 }
 
-// Those of complete elements: within the faces, in the order of Gmsh's manual, then within a hexahedron.
+// Nodes within the faces of complete elements, in the order of Gmsh's manual, then the node within a hexahedron.
 void add_inner_nodes(FileCell& cell, std::span<const std::int64_t> nodes) {
   using Faces = std::vector<std::array<std::size_t, 4>>;
   static const Faces pyramid{{0, 3, 2, 1}}, wedge{{0, 1, 4, 3}, {0, 3, 5, 2}, {1, 2, 5, 4}};
@@ -226,7 +208,7 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
   const auto read = [&](auto&& nodes) {
     for (std::int64_t& node : nodes) node = tokens.integer("a node tag");
   };
-  // A face of no surface, or a point of no set, is of no use.
+  // Faces, lines and points in no physical group are skipped.
   const bool grouped = !file.group_sets[static_cast<std::size_t>(groups)].empty();
   if (type.role == cell) {
     file.cells.push_back({{.tag = tag, .kind = type.kind, .place = place}, groups});
@@ -239,15 +221,14 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
       std::vector<std::int64_t> middles(type.nodes - type.corners);
       read(middles);
       const auto& edges = gmsh_edges_of(type.kind);
-      for (std::size_t e = 0; e < edges.size(); ++e)
-        cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], middles[e]});
+      cell.add_edge_middles(edges, middles);
       add_inner_nodes(cell, std::span(middles).subspan(edges.size()));
     }
   } else if (type.role == face && grouped) {
     FileFace face{.tag = tag, .sides = type.corners, .place = place};
     read(face.corners());
     file.faces.push_back({face, groups});
-    if (type.nodes > type.corners) return tokens.skip_line();  // its other nodes are those of the element behind it
+    if (type.nodes > type.corners) return tokens.skip_line();  // the other nodes belong to the cell behind the face
   } else if (type.role == line && grouped) {
     for (std::size_t k = 0; k < type.nodes; ++k) file.curves.push_back({{tokens.integer("a node tag"), place}, groups});
   } else if (type.role == point && grouped) {

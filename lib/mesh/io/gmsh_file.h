@@ -1,5 +1,5 @@
-// What a Gmsh file says, before it becomes a TetMesh: tags instead of indices, and the line of
-// everything. Filled by the readers of both versions, turned into a mesh by read_gmsh().
+// The content of a Gmsh file before it becomes a TetMesh: tags instead of indices, each with its line. Filled by the
+// readers of both formats; read_gmsh() builds the mesh.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,24 @@
 
 namespace orthodyn {
 
-// What a type of element is read as.
+// An element type.
 struct GmshType {
   enum class Role { ignored, point, line, face, cell };
 
   Role role = Role::ignored;
-  std::size_t nodes = 0;    // in the file
-  std::size_t corners = 0;  // the first of them
+  std::size_t nodes = 0;    // per element
+  std::size_t corners = 0;  // the first nodes
   CellKind kind = CellKind::tet;
 };
 
-// An element of a draft with its physical groups, an index into GmshFile::group_sets.
+// An element with its physical groups, an index into GmshFile::group_sets.
 template <class Element>
 struct Grouped {
   Element element;
   int groups;
 };
 
-// Of the names of physical groups in format 2.0, which do not say.
+// Dimension of group names in format 2.0, which does not store it.
 inline constexpr int kAnyDimension = -1;
 
 struct GmshFile {
@@ -40,21 +40,21 @@ struct GmshFile {
 
   std::map<DimTag, std::string> names;  // of physical groups
   std::vector<FileNode> nodes;
-  std::vector<Grouped<FileNodeUse>> points;  // only those in a physical point
-  std::vector<Grouped<FileNodeUse>> curves;  // nodes of lines that are in a physical curve
-  std::vector<Grouped<FileFace>> faces;      // only those in a physical surface
+  std::vector<Grouped<FileNodeUse>> points;  // in a physical point
+  std::vector<Grouped<FileNodeUse>> curves;  // nodes of lines in a physical curve
+  std::vector<Grouped<FileFace>> faces;      // in a physical surface
   std::vector<Grouped<FileCell>> cells;
-  // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.
-  // Negative where the group is oriented against the element.
+  // Distinct sets of physical tags, each ascending and without duplicates; the first is empty. A tag is negative if the
+  // group has the opposite orientation of the element.
   std::vector<std::vector<int>> group_sets = {{}};
   std::map<std::vector<int>, int> group_set_index = {{{}, 0}};
-  std::map<std::string, int> section_lines;  // where each section began
+  std::map<std::string, int> section_lines;  // line where each section begins
 
   // 4.1 only: the group set of each model entity.
   std::map<DimTag, int> entity_groups;
 };
 
-// `$Nodes` and the line it is on.
+// A section, such as "Nodes", and the line where it starts.
 struct GmshSection {
   std::string name;
   int line;
@@ -66,26 +66,33 @@ using GmshSectionReaders = std::map<std::string, GmshSectionReader>;
 GmshSectionReaders gmsh_v2_sections();
 GmshSectionReaders gmsh_v4_sections();
 
-// Reads $MeshFormat, chooses the readers by version, and reads all sections; unknown ones are
-// skipped.
+// Reads all sections with the readers of the version in $MeshFormat. Skips unknown sections.
 GmshFile read_gmsh_sections(TextTokens& tokens);
 
-// Of use to both formats. ---------------------------------------------------------------------
+// Whether the line after $MeshFormat says that the file is binary.
+bool is_binary_gmsh(std::string_view text);
 
-// The tag of a model entity or physical group.
+// Converts a binary file to ASCII, without the sections that are not read. The byte order must be that of this machine.
+// Throws ConfigError "file: byte N of a binary Gmsh file: found, remedy" if the file ends early or announces more than
+// it contains. Precondition: is_binary_gmsh().
+std::string ascii_of_binary_gmsh(const std::string& path, std::string_view bytes);
+
+// Shared by both formats. ---------------------------------------------------------------------
+
+// Reads the tag of a model entity or physical group.
 int read_tag(TextTokens& tokens, const char* what);
 
-// Before each record of a list: the section must not be over while `done` of `announced` are read.
+// Call before each record. Fails if the section or file ends after `done` of `announced` records.
 void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done, std::int64_t announced,
                    const char* records);
 
-// The line `$End<name>`.
+// Reads the line `$End<name>`.
 void end_section(TextTokens& tokens, const GmshSection& section);
 
-// The index of this set of physical tags in group_sets.
+// The index of this set of physical tags in group_sets; adds it if it is new.
 int intern_groups(GmshFile& file, std::vector<int> groups);
 
-// Refuses everything but points, lines, and elements of first or second order.
+// Fails for element types that are not supported.
 GmshType check_element_type(const TextTokens& tokens, std::int64_t type);
 
 // Reads the nodes of an element up to the end of the line.

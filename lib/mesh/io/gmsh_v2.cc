@@ -1,5 +1,4 @@
-// Gmsh format 2.2: nodes "tag x y z", elements "tag type ntags physical ... nodes".
-#include <vector>
+// Reads Gmsh format 2: nodes "tag x y z", elements "tag type ntags physical ... nodes".
 
 #include "lib/mesh/io/gmsh_file.h"
 
@@ -21,7 +20,7 @@ void read_nodes(TextTokens& tokens, const GmshSection& section, GmshFile& file) 
   end_section(tokens, section);
 }
 
-// The first tag is the physical group, 0 for none; the others (entity, partitions) do not matter.
+// The first tag is the physical group, 0 for none; the others (entity, partitions) are ignored.
 int read_groups(TextTokens& tokens, GmshFile& file) {
   const std::int64_t tags = tokens.count("the number of element tags");
   int groups = 0;
@@ -48,7 +47,7 @@ void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& fil
 }
 
 void refuse_parametric(TextTokens& tokens, const GmshSection& section, GmshFile&) {
-  tokens.fail_at(section.line, "$ParametricNodes is not read; save with Mesh.SaveParametric = 0");
+  tokens.fail_at(section.line, "$ParametricNodes is not supported; save with Mesh.SaveParametric = 0");
 }
 
 }  // namespace

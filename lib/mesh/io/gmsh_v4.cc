@@ -1,6 +1,4 @@
-// Gmsh format 4.1: nodes and elements in blocks, one per model entity; physical groups belong to
-// the entities.
-#include <fmt/format.h>
+// Reads Gmsh format 4.1: nodes and elements in blocks, one per model entity. Physical groups belong to the entities.
 
 #include <array>
 #include <vector>
@@ -12,27 +10,24 @@ namespace {
 
 int read_dimension(TextTokens& tokens) {
   const std::int64_t dim = tokens.integer("the dimension of an entity");
-  if (dim < 0 || dim > 3) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
+  if (dim < 0 || dim > 3) tokens.fail("dimension {}; expected 0 to 3", dim);
   return static_cast<int>(dim);
 }
 
 void read_entity(TextTokens& tokens, int dim, GmshFile& file) {
   const int tag = read_tag(tokens, "the tag of an entity");
-  const int coordinates = dim == 0 ? 3 : 6;                           // a point, or else a bounding box
-  for (int i = 0; i < coordinates; ++i) tokens.word("a coordinate");  // may be infinite if empty
+  const int coordinates = dim == 0 ? 3 : 6;                           // of a point or a bounding box
+  for (int i = 0; i < coordinates; ++i) tokens.word("a coordinate");  // infinite for an empty entity
   const std::int64_t count = tokens.count("the number of physical groups");
   std::vector<int> groups;
   for (std::int64_t i = 0; i < count; ++i) groups.push_back(read_tag(tokens, "a physical tag"));
-  if (!file.entity_groups.emplace(GmshFile::DimTag(dim, tag), intern_groups(file, groups)).second) {
-    tokens.fail(fmt::format("entity {} of dimension {} is listed twice", tag, dim));
-  }
-  tokens.skip_line();  // the bounding entities do not matter
+  if (!file.entity_groups.emplace(GmshFile::DimTag(dim, tag), intern_groups(file, groups)).second)
+    tokens.fail("entity {} of dimension {} is listed twice", tag, dim);
+  tokens.skip_line();  // bounding entities
 }
 
 void read_entities(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
-  if (file.section_lines.contains("Elements")) {
-    tokens.fail_at(section.line, "$Entities must come before $Elements");
-  }
+  if (file.section_lines.contains("Elements")) tokens.fail_at(section.line, "$Entities must come before $Elements");
   std::array<std::int64_t, 4> announced{};
   for (std::int64_t& count : announced) count = tokens.count("the number of entities");
   tokens.finish_line();
@@ -64,8 +59,7 @@ Totals read_totals(TextTokens& tokens) {
 void check_total(const TextTokens& tokens, const GmshSection& section, std::int64_t announced, std::size_t found,
                  const char* records) {
   if (static_cast<std::size_t>(announced) == found) return;
-  tokens.fail_at(section.line,
-                 fmt::format("${} announces {} {}, but its blocks hold {}", section.name, announced, records, found));
+  tokens.fail_at(section.line, "${} announces {} {}, but its blocks hold {}", section.name, announced, records, found);
 }
 
 // All tags of a block come first, one per line, then all coordinates.
@@ -104,9 +98,7 @@ void read_node_blocks(TextTokens& tokens, const GmshSection& section, GmshFile& 
 int groups_of_entity(const TextTokens& tokens, const GmshFile& file, int dim, int tag) {
   if (!file.section_lines.contains("Entities")) return 0;
   const auto entity = file.entity_groups.find({dim, tag});
-  if (entity == file.entity_groups.end()) {
-    tokens.fail(fmt::format("entity {} of dimension {} is not in $Entities", tag, dim));
-  }
+  if (entity == file.entity_groups.end()) tokens.fail("entity {} of dimension {} is not in $Entities", tag, dim);
   return entity->second;
 }
 
@@ -117,7 +109,7 @@ std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, 
   using enum GmshType::Role;
   if ((type.role == face && dim != 2) || (type.role == cell && dim != 3)) {
     const char* faces = type.corners == 3 ? "triangles" : "quadrangles";
-    tokens.fail(fmt::format("{} in an entity of dimension {}", type.role == cell ? name_of(type.kind, 2) : faces, dim));
+    tokens.fail("{} in an entity of dimension {}", type.role == cell ? name_of(type.kind, 2) : faces, dim);
   }
   const std::int64_t count = tokens.count("the number of elements");
   const int groups = groups_of_entity(tokens, file, dim, entity);
@@ -143,8 +135,8 @@ void read_element_blocks(TextTokens& tokens, const GmshSection& section, GmshFil
 
 void refuse_partitions(TextTokens& tokens, const GmshSection& section, GmshFile&) {
   tokens.fail_at(section.line,
-                 "a partitioned mesh ($PartitionedEntities); mesh again without -part, or open it in "
-                 "Gmsh, choose Mesh > Unpartition, and save");
+                 "a partitioned mesh ($PartitionedEntities); mesh again without -part, or open it in Gmsh, choose Mesh "
+                 "> Unpartition, and save");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Gmsh formats 2.2 and 4.1: regions, surfaces and node sets as physical volumes, surfaces and points.
+// Implements write_gmsh22() and write_gmsh41().
 #include <utility>
 
 #include "lib/mesh/io/gmsh.h"
@@ -8,7 +8,7 @@
 namespace orthodyn {
 namespace {
 
-// One physical group and its elements, but not the tets of a region.
+// A physical group and its elements; the tets of regions are not stored here.
 struct Group {
   int dim, tag;
   std::string name;
@@ -45,7 +45,7 @@ int type_of(const TetMesh& mesh, int dim) {
   return dim == 0 ? 15 : dim == 2 ? (quadratic ? 9 : 2) : quadratic ? 11 : 4;
 }
 
-// The tets in Gmsh's order, which has edge 23 before 13.
+// Tets in Gmsh's order: edge 23 before edge 13.
 std::vector<std::vector<int>> gmsh_tets(const TetMesh& mesh) {
   const Cells cells = tet_cells(mesh);
   std::vector<std::vector<int>> tets;
@@ -68,7 +68,7 @@ void add_head(TextLines& lines, const char* version, const std::vector<Group>& g
 
 WrittenMesh msh_file(TextLines& lines) { return {.files = {{".msh", lines.take()}}}; }
 
-// One entity per group: its tag, a point or a bounding box, and the physical group.
+// One entity per group: tag, point or bounding box, physical group.
 void add_entities(TextLines& lines, const TetMesh& mesh, const std::vector<Group>& groups) {
   const Box box = bounding_box(mesh);
   lines.line("$Entities");
@@ -85,7 +85,7 @@ void add_entities(TextLines& lines, const TetMesh& mesh, const std::vector<Group
   lines.line("$EndEntities");
 }
 
-// All nodes in one block, of the first volume.
+// All nodes in one block, which belongs to the first volume.
 void add_nodes(TextLines& lines, const TetMesh& mesh) {
   const std::size_t nodes = mesh.nodes.size();
   lines.line("$Nodes");
@@ -96,7 +96,7 @@ void add_nodes(TextLines& lines, const TetMesh& mesh) {
   lines.line("$EndNodes");
 }
 
-// Consecutive tets of a region form one block, so that their order stays. Returns the number of blocks.
+// Consecutive tets of a region form a block, which keeps the order of the tets. Returns the number of blocks.
 std::size_t add_blocks(TextLines& lines, const TetMesh& mesh, const std::vector<Group>& groups) {
   const auto tets = gmsh_tets(mesh);
   std::size_t blocks = 0, number = 0;
@@ -129,11 +129,9 @@ WrittenMesh write_gmsh22(const LoadedMesh& loaded) {
   lines.line(elements_of(mesh, groups));
   const auto tets = gmsh_tets(mesh);
   std::size_t number = 0;
-  for (const Group& group : groups) {
-    for (const auto& nodes : group.elements) {
+  for (const Group& group : groups)
+    for (const auto& nodes : group.elements)
       lines.line(++number, type_of(mesh, group.dim), 2, group.tag, group.tag, FromOne{nodes});
-    }
-  }
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const int tag = mesh.region_of[e] + 1;
     lines.line(++number, type_of(mesh, 3), 2, tag, tag, FromOne{tets[e]});

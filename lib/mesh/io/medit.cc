@@ -22,7 +22,7 @@ namespace {
 struct MeditSection {
   std::string_view name;
   std::size_t nodes, corners;
-  std::optional<CellKind> solid = {};  // else a face
+  std::optional<CellKind> solid = {};  // empty: a face
 };
 constexpr std::array<MeditSection, 8> kMeditSections{{{"Tetrahedra", 4, 4, CellKind::tet},
                                                       {"TetrahedraP2", 10, 4, CellKind::tet},
@@ -51,8 +51,7 @@ class MeditReader {
     }
     if (draft_.cells.empty()) tokens_.fail("no Tetrahedra, Hexahedra, Prisms or Pyramids; did you mesh in 3D?");
     if (is_quadratic()) sort_middles(draft_.nodes, draft_.cells);
-    if (!skipped_.empty())
-      draft_.warnings.push_back(fmt::format("{}: only the mesh is read; skipped: {}", tokens_.path(), join(skipped_)));
+    if (!skipped_.empty()) draft_.warn({}, "only the mesh is read; skipped: {}", join(skipped_));
     return std::move(draft_);
   }
 
@@ -60,7 +59,7 @@ class MeditReader {
   void read_section(const std::string& name) {
     if (name == "Dimension") {
       if (const std::int64_t dimension = value("the dimension"); dimension != 3)
-        tokens_.fail(fmt::format("dimension {}; expected 3", dimension));
+        tokens_.fail("dimension {}; expected 3", dimension);
       return;
     }
     if (name == "Vertices") return each_line(name, [&] { read_vertex(); });
@@ -68,16 +67,16 @@ class MeditReader {
       if (section.name == name) return each_line(name, [&] { read_element(section); });
     for (const char* solid : {"Tetrahedra", "Hexahedra", "Prisms", "Pyramids"})
       if (name.starts_with(solid) && !name.ends_with("Ordering"))
-        tokens_.fail(fmt::format("elements {} are not read; mesh again with Tetrahedra or TetrahedraP2", name));
+        tokens_.fail("elements {} are not supported; mesh again with Tetrahedra or TetrahedraP2", name);
     if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0])))
-      tokens_.fail(fmt::format("expected a keyword, found {}; are there more lines than the section announces?",
-                               TextTokens::quoted(name)));
+      tokens_.fail("expected a keyword, found {}; does the section have more lines than it announces?",
+                   TextTokens::quoted(name));
     skipped_.push_back(name);
     tokens_.skip_line();
     while (!tokens_.at_end() && !std::isalpha(static_cast<unsigned char>(tokens_.peek()))) tokens_.skip_line();
   }
 
-  // An integer behind a keyword, which may stand in the next line.
+  // The integer after a keyword, on the same or the next line.
   std::int64_t value(const char* what) {
     if (!tokens_.peek()) tokens_.finish_line();
     const std::int64_t found = tokens_.count(what);
@@ -89,8 +88,7 @@ class MeditReader {
   void each_line(const std::string& section, Read&& read) {
     const std::int64_t announced = value("a number of lines");
     for (std::int64_t k = 0; k < announced; ++k) {
-      if (tokens_.at_end())
-        tokens_.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", k, announced, section));
+      if (tokens_.at_end()) tokens_.fail("the file ends after {} of {} {}; is it truncated?", k, announced, section);
       number_ = k + 1;
       place_ = {tokens_.line(), 0};
       read();
@@ -125,7 +123,6 @@ class MeditReader {
     draft_.cells.push_back(std::move(cell));
   }
 
-  // Elements of both orders are refused when the mesh is built.
   bool is_quadratic() const {
     return std::all_of(draft_.cells.begin(), draft_.cells.end(),
                        [](const FileCell& c) { return c.midsides.has_value(); });
@@ -134,7 +131,7 @@ class MeditReader {
   TextTokens tokens_;
   MeshDraft draft_;
   std::vector<std::string> skipped_;
-  std::int64_t number_ = 0;  // in its section, from 1
+  std::int64_t number_ = 0;  // of the current record in its section, from 1
   FilePlace place_;
 };
 
@@ -145,7 +142,7 @@ const bool medit_registered =
 
 LoadedMesh read_medit(const std::string& path) {
   if (in_capitals(std::filesystem::path(path).extension().string()) == ".MESHB")
-    throw ConfigError(path, "the binary form of Medit files is not read; write the text form, .mesh");
+    throw ConfigError(path, "binary Medit files are not supported; write the text form, .mesh");
   return read_medit_text(path, read_text_file(path));
 }
 

@@ -20,7 +20,7 @@
 namespace orthodyn {
 namespace {
 
-// Files of one mesh belong together: none takes its place before all are on the disk.
+// Writes all files beside their targets before the first one replaces its target.
 void replace_together(const std::vector<MeshText>& files, const std::function<std::string(const MeshText&)>& place) {
   namespace fs = std::filesystem;
   const auto beside = [&](const MeshText& file) { return place(file) + ".new"; };
@@ -39,14 +39,13 @@ void replace_together(const std::vector<MeshText>& files, const std::function<st
   for (const MeshText& file : files) {
     std::error_code error;
     fs::rename(beside(file), place(file), error);
-    if (error) {
+    if (error)
       throw ConfigError(place(file),
                         fmt::format("cannot be written: {}; the mesh is in {}", error.message(), beside(file)));
-    }
   }
 }
 
-// Converts names, and remembers which.
+// Converts names and collects the converted ones.
 class Names {
  public:
   explicit Names(const std::string& path) : path_(path) {}
@@ -64,7 +63,7 @@ class Names {
       std::string key = name;
       convert(key);
       if (!out.emplace(key, std::move(value)).second)
-        throw ConfigError(path_, fmt::format("two names are '{}' once those that are not UTF-8 are read as Latin-1; "
+        throw ConfigError(path_, fmt::format("two names become '{}' when read as Latin-1, because they are not UTF-8; "
                                              "rename one, or save the file as UTF-8",
                                              key));
     }
@@ -102,15 +101,14 @@ LoadedMesh read_mesh(const std::string& path) {
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
   namespace fs = std::filesystem;
   const MeshFormat& format = mesh_format_to_write(path);
-  if (!format.write) throw ConfigError(path, fmt::format("{} files are only read; write .vtu instead", format.name));
+  if (!format.write) throw ConfigError(path, fmt::format("{} files can be read only; write .vtu instead", format.name));
   WrittenMesh written = format.write(loaded);
-  // The user's spelling for a single file, that of the format for several beside each other.
+  // A single file gets the name the user gave, several files get the endings of the format.
   const auto place = [&](const MeshText& file) {
     return written.files.size() == 1 ? path : fs::path(path).replace_extension(file.ending).string();
   };
-  for (const MeshText& file : written.files) {
+  for (const MeshText& file : written.files)
     if (!replace && fs::exists(place(file))) throw ConfigError(place(file), "already exists; --force replaces it");
-  }
   replace_together(written.files, place);
   for (std::string& loss : losses_in(format, loaded)) written.losses.push_back(std::move(loss));
   return std::move(written.losses);
@@ -123,6 +121,18 @@ void scale_mesh(TetMesh& mesh, double factor, const std::string& source) {
     throw ConfigError(
         source,
         fmt::format("scaled by {}, the volume of element {} cannot be represented; check the scale", factor, e));
+  }
+}
+
+void convert_to_si(LoadedMesh& loaded, FileUnits units, const std::string& source) {
+  if (units == FileUnits::si) return;
+  const UnitFactors factors = factors_of(units);
+  scale_mesh(loaded.mesh, factors.length, source);
+  for (auto& [region, m] : loaded.materials) {
+    m.density *= factors.density;
+    m.young *= factors.stress;
+    for (double* modulus : {&m.g12, &m.g23, &m.g31}) *modulus *= factors.stress;
+    for (double& entry : m.stiffness) entry *= factors.stress;
   }
 }
 

@@ -37,9 +37,8 @@ const std::vector<MeshFormat>& mesh_formats() { return table(); }
 
 std::string known_mesh_endings() {
   std::vector<std::string> known;
-  for (const MeshFormat& format : mesh_formats()) {
+  for (const MeshFormat& format : mesh_formats())
     for (const std::string& ending : format.endings) known.push_back(ending + " (" + format.name + ")");
-  }
   return join(known);
 }
 
@@ -60,7 +59,7 @@ std::string unknown_ending(const std::string& path) {
 const MeshFormat& mesh_format_of(const std::string& path) {
   if (const MeshFormat* format = find_format(path)) return *format;
   throw ConfigError(
-      path, fmt::format("{}. meshio (apt install python3-meshio) converts some others, without the names of "
+      path, fmt::format("{}. meshio (apt install python3-meshio) converts some other formats, without the names of "
                         "sets: python3 -c \"import meshio; meshio.write('{}', meshio.read('{}'))\"",
                         unknown_ending(path), std::filesystem::path(path).replace_extension(".vtu").string(), path));
 }
@@ -77,7 +76,7 @@ Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {
   if (!format.holds_cell_data) {
     std::vector<std::string> arrays;
     for (const CellData& data : loaded.cell_data) {
-      if (data.name != "region") arrays.push_back(data.name);  // its numbers are the regions themselves
+      if (data.name != "region") arrays.push_back(data.name);  // "region" holds the numbers of the regions
     }
     note_loss(losses, "values per element", arrays);
   }

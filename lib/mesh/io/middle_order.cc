@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "lib/mesh/node_numbers.h"
-#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
@@ -32,9 +31,9 @@ class MiddleSorter {
   }
 
  private:
-  using Order = std::array<std::size_t, 6>;  // for each edge the place in the list
+  using Order = std::array<std::size_t, 6>;  // for each edge the index in the list
 
-  // None where nodes are missing, which is refused later, or one is nearest to two edges.
+  // The order in one tet. Empty if a node is undefined (an error later) or if one node is nearest to two edges.
   std::optional<Order> order_of(const FileCell& tet) const {
     for (const std::int64_t tag : tet.corners())
       if (number_(tag) < 0) return std::nullopt;
@@ -43,9 +42,9 @@ class MiddleSorter {
     Order order{};
     std::set<std::size_t> taken;
     for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const Vec3 half_way = 0.5 * (at(tet.nodes[kTetEdges[e][0]]) + at(tet.nodes[kTetEdges[e][1]]));
+      const Vec3 midpoint = 0.5 * (at(tet.nodes[kTetEdges[e][0]]) + at(tet.nodes[kTetEdges[e][1]]));
       const auto nearer = [&](std::int64_t a, std::int64_t b) {
-        return (at(a) - half_way).squaredNorm() < (at(b) - half_way).squaredNorm();
+        return (at(a) - midpoint).squaredNorm() < (at(b) - midpoint).squaredNorm();
       };
       const auto nearest = std::min_element(tet.midsides->begin(), tet.midsides->end(), nearer);
       order[e] = static_cast<std::size_t>(nearest - tet.midsides->begin());

@@ -1,4 +1,4 @@
-// The order in which a file lists the nodes on the edges of quadratic tetrahedra, where its writers differ.
+// Detects the order of the mid-edge nodes of quadratic tetrahedra, in formats whose writers differ.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace orthodyn {
 
-// Puts the middle nodes into the order of kTetEdges: the one in which most elements have them nearest to half way.
-// Precondition: all tetrahedra are quadratic.
+// Permutes the mid-edge nodes to the order of kTetEdges, by the permutation that puts them nearest to the edge
+// midpoints in most elements. Precondition: all tetrahedra are quadratic.
 void sort_middles(const std::vector<FileNode>& nodes, std::vector<FileCell>& tets);
 
 }  // namespace orthodyn

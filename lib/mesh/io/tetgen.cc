@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <map>
@@ -34,26 +33,24 @@ class TetgenReader {
   }
 
  private:
-  // Calls `record` with the tokens on each of the announced lines; nothing may follow.
+  // Calls `record` for each announced line. The file must end after them.
   template <class Record>
   void read_records(TextTokens& tokens, std::int64_t announced, const char* what, Record&& record) {
     for (std::int64_t i = 0; i < announced; ++i) {
-      if (tokens.at_end())
-        tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
+      if (tokens.at_end()) tokens.fail("the file ends after {} of {} {}; is it truncated?", i, announced, what);
       record();
       tokens.finish_line();
     }
-    if (!tokens.at_end()) {
-      tokens.fail(fmt::format("expected the end of the file after {} {}, found {}", announced, what,
-                              TextTokens::quoted(tokens.word("a word"))));
-    }
+    if (!tokens.at_end())
+      tokens.fail("expected the end of the file after {} {}, found {}", announced, what,
+                  TextTokens::quoted(tokens.word("a word")));
   }
 
   void read_nodes(std::string_view text) {
     TextTokens tokens(draft_.files[0], text, {.comment = "#"});
     const std::int64_t count = tokens.count("the number of nodes");
     const std::int64_t dimension = tokens.integer("the dimension");
-    if (dimension != 3) tokens.fail(fmt::format("dimension {}; expected 3", dimension));
+    if (dimension != 3) tokens.fail("dimension {}; expected 3", dimension);
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     const bool markers = tokens.peek() && read_flag(tokens);
     tokens.finish_line();
@@ -63,9 +60,8 @@ class TetgenReader {
       for (double& x : node.x) x = tokens.real("a coordinate");
       for (std::int64_t k = 0; k < attributes; ++k) tokens.real("an attribute");
       if (markers) {
-        if (const std::int64_t marker = tokens.integer("a marker"); marker != 0) {
+        if (const std::int64_t marker = tokens.integer("a marker"); marker != 0)
           draft_.node_sets[fmt::format("marker{}", marker)].push_back({node.tag, node.place});
-        }
       }
       draft_.nodes.push_back(node);
     });
@@ -75,7 +71,7 @@ class TetgenReader {
     TextTokens tokens(draft_.files[1], text, {.comment = "#"});
     const std::int64_t count = tokens.count("the number of tetrahedra");
     const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
-    if (nodes != 4 && nodes != 10) tokens.fail(fmt::format("{} nodes per tetrahedron; expected 4, or 10 (-o2)", nodes));
+    if (nodes != 4 && nodes != 10) tokens.fail("{} nodes per tetrahedron; expected 4, or 10 (-o2)", nodes);
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     tokens.finish_line();
     if (count == 0) tokens.fail("no tetrahedra");
@@ -107,21 +103,21 @@ class TetgenReader {
       if (quadratic)
         for (int k = 0; k < 3; ++k) tokens.integer("a node on an edge");
       const std::int64_t marker = markers ? tokens.integer("a marker") : 0;
-      while (tokens.peek()) tokens.integer("a neighbour");  // with tetgen -nn
+      while (tokens.peek()) tokens.integer("a neighbour");  // written by tetgen -nn
       if (marker != 0) draft_.surfaces[fmt::format("marker{}", marker)].push_back(face);
     });
   }
 
   static bool read_flag(TextTokens& tokens) {
     const std::int64_t flag = tokens.integer("0 or 1 (markers)");
-    if (flag != 0 && flag != 1) tokens.fail(fmt::format("{} markers; expected 0 or 1", flag));
+    if (flag != 0 && flag != 1) tokens.fail("{} markers; expected 0 or 1", flag);
     return flag == 1;
   }
 
   MeshDraft draft_;
 };
 
-// "marker7" keeps its 7; the others take the numbers that are free.
+// Numbers for names: "marker7" keeps 7, other names get free numbers.
 std::map<std::string, int> numbers_of(const std::string& prefix, const std::vector<std::string>& names,
                                       Warnings& losses) {
   std::map<std::string, int> numbers;
@@ -144,7 +140,7 @@ std::map<std::string, int> numbers_of(const std::string& prefix, const std::vect
   return numbers;
 }
 
-// The marker of each node, 0 for none; of several sets the first wins.
+// The marker of each node, 0 for none. A node in several sets gets the marker of the first.
 std::vector<int> markers_of(const TetMesh& mesh, Warnings& losses) {
   const auto numbers = numbers_of("marker", names_of(mesh.node_sets), losses);
   std::vector<int> markers(mesh.nodes.size(), 0);

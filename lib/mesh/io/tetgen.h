@@ -1,4 +1,4 @@
-// TetGen's meshes: .node and .ele, and .face if there are surfaces.
+// Reads and writes TetGen meshes: .node, .ele and optionally .face files.
 //
 // Format: Hang Si, TetGen 1.5 user's manual, "file formats".
 #pragma once
@@ -10,20 +10,21 @@
 
 namespace orthodyn {
 
-// `path` names the .node or the .ele file; the others are beside it. Elements belong to the region
-// "region<attribute>", or "body" without attributes. Triangles of the .face file with a marker other
-// than zero make surfaces "marker<k>", nodes likewise node sets "marker<k>". Numbers count from 0 or
-// 1. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
+// `path` is the .node or .ele file; the other files are in the same folder. Elements form the region
+// "region<attribute>", or "body" without attributes. Triangles with marker k != 0 form the surface "marker<k>", nodes
+// the node set "marker<k>". Numbers start at 0 or 1. Throws ConfigError "file:line: found, remedy", as read_gmsh()
+// does.
 LoadedMesh read_tetgen(const std::string& path);
 
 struct TetgenTexts {
-  std::string_view node, ele, face;  // the last may be empty
+  std::string_view node, ele, face;  // `face` may be empty
 };
 
-// The same from texts; `stem` is the path without its ending, for messages.
+// Reads from texts; `stem`, the path without ending, is for messages.
 LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts);
 
-// Names are lost but for "region<k>" and "marker<k>".
+// Writes names of the form "region<k>" and "marker<k>" as their number k; other names are replaced by free ones of this
+// form.
 WrittenMesh write_tetgen(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Lines of numbers and words, of which most mesh files consist.
+// Writes lines of numbers and words, for mesh files in text form.
 #pragma once
 
 #include <concepts>
@@ -12,18 +12,18 @@
 
 namespace orthodyn {
 
-// Indices of nodes that become numbers from 1 on.
+// Node indices (from 0) to be written as numbers from 1.
 struct FromOne {
   std::span<const int> indices;
 };
 
-// Real numbers are written with as many digits as it takes to read the same number again.
+// Writes real numbers with the fewest digits that read back as the same number.
 class TextLines {
  public:
-  // `between` stands between the items of a line.
+  // `between` separates the items of a line.
   explicit TextLines(std::string_view between = " ") : between_(between) {}
 
-  // One line of numbers, words, and several numbers at once (Vec3, FromOne, span of int or double).
+  // Writes one line. Items: numbers, words, Vec3, FromOne, spans of int or double.
   template <class... Items>
   void line(const Items&... items) {
     (add(items), ...);
@@ -39,7 +39,7 @@ class TextLines {
   void add(std::span<const double> numbers);
   void end_line();
 
-  // As it is; a line that was begun must have been ended.
+  // Appends the text unchanged. Precondition: no unfinished line.
   void text(std::string_view text) { text_ += text; }
 
   std::string take() { return std::move(text_); }
@@ -49,7 +49,7 @@ class TextLines {
   void separate();
 
   std::string between_, text_;
-  bool begun_ = false;  // the line holds something
+  bool begun_ = false;  // the current line has an item
 };
 
 }  // namespace orthodyn

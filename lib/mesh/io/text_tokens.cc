@@ -1,7 +1,5 @@
 #include "lib/mesh/io/text_tokens.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -12,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "lib/core/errors.h"
 #include "lib/core/parse_number.h"
 
 namespace orthodyn {
@@ -20,11 +17,9 @@ namespace orthodyn {
 std::string read_text_file(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw ConfigError(path, fmt::format("cannot be opened: {}", error.message()));
-  }
+  if (!std::filesystem::exists(status)) throw ConfigError(path, fmt::format("cannot be opened: {}", error.message()));
   if (!std::filesystem::is_regular_file(status)) {  // a pipe might never end
-    throw ConfigError(path, "a directory or device, where a mesh file is expected");
+    throw ConfigError(path, "is a directory or device; expected a mesh file");
   }
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
@@ -60,35 +55,32 @@ char TextTokens::peek() {
 }
 
 std::string_view TextTokens::word(const char* what) {
-  if (at_end()) fail(fmt::format("the file ends where {} is expected; is it truncated?", what));
+  if (at_end()) fail("the file ends where {} is expected; is it truncated?", what);
   peek();
   const std::size_t begin = position_;
   while (!at_end() && !at_comment(begin) && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
-  if (position_ == begin) fail(fmt::format("expected {}, found the end of the line", what));
+  if (position_ == begin) fail("expected {}, found the end of the line", what);
   return text_.substr(begin, position_ - begin);
 }
 
 std::int64_t TextTokens::integer(const char* what) {
   const std::string_view found = word(what);
   std::int64_t value = 0;
-  if (!parse_number(found, value)) {
-    fail(fmt::format("expected {} (an integer), found {}", what, quoted(found)));
-  }
+  if (!parse_number(found, value)) fail("expected {} (an integer), found {}", what, quoted(found));
   return value;
 }
 
 std::int64_t TextTokens::count(const char* what) {
   const std::int64_t found = integer(what);
-  if (found < 0) fail(fmt::format("{} is {}; it cannot be negative", what, found));
+  if (found < 0) fail("{} is {}; it cannot be negative", what, found);
   return found;
 }
 
 double TextTokens::real(const char* what) {
   const std::string_view found = word(what);
   double value = 0;
-  if (!parse_number(found, value) || !std::isfinite(value)) {
-    fail(fmt::format("expected {} (a finite number), found {}", what, quoted(found)));
-  }
+  if (!parse_number(found, value) || !std::isfinite(value))
+    fail("expected {} (a finite number), found {}", what, quoted(found));
   return value;
 }
 
@@ -98,9 +90,7 @@ std::string_view TextTokens::rest_of_line() const {
 }
 
 void TextTokens::finish_line() {
-  if (peek() != '\0') {
-    fail(fmt::format("expected the end of the line, found {}", quoted(word("a word"))));
-  }
+  if (peek() != '\0') fail("expected the end of the line, found {}", quoted(word("a word")));
   skip_line();
 }
 
@@ -120,7 +110,7 @@ void TextTokens::skip_blank_lines() {
     line += text_[p] == '\n';
     ++p;
   }
-  // At the end of the file the last line that holds something is the one to name.
+  // At the end of the file, messages refer to the last non-blank line.
   if (p < text_.size()) line_ = line;
   position_ = p;
 }
@@ -131,12 +121,6 @@ void TextTokens::skip_bytes(std::size_t bytes) {
                                        text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
   position_ = end;
   skip_blank_lines();
-}
-
-void TextTokens::fail(const std::string& message) const { fail_at(line_, message); }
-
-void TextTokens::fail_at(int line, const std::string& message) const {
-  throw ConfigError(fmt::format("{}:{}", path_, line), message);
 }
 
 std::string TextTokens::quoted(std::string_view word) {

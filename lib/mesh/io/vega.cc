@@ -1,7 +1,5 @@
 #include "lib/mesh/io/vega.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -13,8 +11,8 @@ namespace {
 
 constexpr const char* kAll = "allElements";
 
-// Regions of the mesh in the order of the file, for each the set and the material ("" for none).
-std::vector<VegaRegion> wanted_regions(const VegaFile& file) {
+// The *REGIONs in file order. If there are none, the sets, as regions without materials.
+std::vector<VegaRegion> regions_or_sets(const VegaFile& file) {
   if (!file.regions.empty()) return file.regions;
   std::vector<VegaRegion> regions;
   for (const VegaSet& set : file.sets) regions.push_back({set.name, "", set.place});
@@ -30,23 +28,22 @@ std::vector<std::size_t> elements_of(const VegaFile& file, const VegaRegion& reg
   std::vector<std::size_t> elements;
   const VegaSet* set = find_set(file, region.set);
   if (!set) {
-    if (region.set != kAll) file.draft.fail(region.place, fmt::format("no *SET {}", TextTokens::quoted(region.set)));
+    if (region.set != kAll) file.draft.fail(region.place, "no *SET {}", TextTokens::quoted(region.set));
     for (std::size_t e = 0; e < file.draft.cells.size(); ++e) elements.push_back(e);
     return elements;
   }
   const auto count = static_cast<std::int64_t>(file.draft.cells.size());
   for (const FileNodeUse& use : set->elements) {
     const std::int64_t index = use.tag < 0 ? -1 : use.tag - file.first_element;
-    if (index < 0 || index >= count) {
-      file.draft.fail(use.place, fmt::format("set {}: element {}; there are {} to {}", TextTokens::quoted(set->name),
-                                             use.tag, file.first_element, file.first_element + count - 1));
-    }
+    if (index < 0 || index >= count)
+      file.draft.fail(use.place, "set {}: element {}; there are {} to {}", TextTokens::quoted(set->name), use.tag,
+                      file.first_element, file.first_element + count - 1);
     elements.push_back(static_cast<std::size_t>(index));
   }
   return elements;
 }
 
-// The region of each element, an index into `regions`; -1 for none. Later regions win.
+// The region of each element, an index into `regions`, -1 for none. The last region of an element wins.
 std::vector<int> assign_regions(VegaFile& file, const std::vector<VegaRegion>& regions) {
   std::vector<int> region_of(file.draft.cells.size(), -1);
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -56,23 +53,21 @@ std::vector<int> assign_regions(VegaFile& file, const std::vector<VegaRegion>& r
       region_of[e] = static_cast<int>(r);
     }
     if (taken == 0) continue;
-    file.draft.warnings.push_back(fmt::format("{}: region \"{}\" takes {} elements from earlier regions",
-                                              file.draft.where(regions[r].place), regions[r].set, taken));
+    file.draft.warn(regions[r].place, "region \"{}\" takes {} elements from earlier regions", regions[r].set, taken);
   }
   return region_of;
 }
 
-// Null for a region without one.
+// The material of a region; null for a region without material.
 const MeshMaterial* material_of(const VegaFile& file, const VegaRegion& region) {
   if (region.material.empty()) return nullptr;
   const auto found = file.materials.find(region.material);
-  if (found == file.materials.end()) {
-    file.draft.fail(region.place, fmt::format("no *MATERIAL {}", TextTokens::quoted(region.material)));
-  }
+  if (found == file.materials.end())
+    file.draft.fail(region.place, "no *MATERIAL {}", TextTokens::quoted(region.material));
   return &found->second;
 }
 
-// Gives the elements their regions in the draft; those in none are "unassigned", or "body" if the file has no regions.
+// Sets the regions of the elements in the draft: "unassigned" for elements in none, or "body" if there are no regions.
 void assign_elements(VegaFile& file, const std::vector<int>& region_of, const std::vector<int>& index) {
   const char* rest = index.empty() ? "body" : "unassigned";
   std::size_t unassigned = 0;
@@ -82,38 +77,34 @@ void assign_elements(VegaFile& file, const std::vector<int>& region_of, const st
     unassigned += r < 0;
   }
   if (unassigned == 0 || index.empty()) return;
-  file.draft.warnings.push_back(fmt::format("{}: {} of {} elements are in no region; they are in region \"unassigned\"",
-                                            file.draft.files.front(), unassigned, region_of.size()));
+  file.draft.warn({}, "{} of {} elements are in no region; they are in region \"unassigned\"", unassigned,
+                  region_of.size());
 }
 
-// Where there are regions, a set that none of them names is of no use.
 void warn_of_unused_sets(VegaFile& file) {
   if (file.regions.empty()) return;
   for (const VegaSet& set : file.sets) {
     const auto names_it = [&](const VegaRegion& region) { return region.set == set.name; };
     if (std::any_of(file.regions.begin(), file.regions.end(), names_it)) continue;
-    file.draft.warnings.push_back(fmt::format("{}: *SET {} of {} elements is in no *REGION, and is left out",
-                                              file.draft.where(set.place), TextTokens::quoted(set.name),
-                                              set.elements.size()));
+    file.draft.warn(set.place, "*SET {} of {} elements is in no *REGION, and is left out", TextTokens::quoted(set.name),
+                    set.elements.size());
   }
 }
 
-// Gives the draft its regions, and returns their materials; regions without elements are dropped.
-std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
-  const std::vector<VegaRegion> regions = wanted_regions(file);
+// Adds the regions to the draft and returns their materials. Regions without elements are dropped.
+std::map<std::string, MeshMaterial> add_regions(VegaFile& file) {
+  const std::vector<VegaRegion> regions = regions_or_sets(file);
   const std::vector<int> region_of = assign_regions(file, regions);
   std::vector<char> used(regions.size(), false);
-  for (const int r : region_of) {
+  for (const int r : region_of)
     if (r >= 0) used[static_cast<std::size_t>(r)] = true;
-  }
   std::map<std::string, MeshMaterial> materials;
-  std::vector<int> index(regions.size(), -1);  // of each region in the draft
+  std::vector<int> index(regions.size(), -1);  // index in the draft of each region
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const std::string& set = regions[r].set;
     const MeshMaterial* material = material_of(file, regions[r]);
     if (!used[r]) {
-      file.draft.warnings.push_back(
-          fmt::format("{}: region \"{}\" has no elements", file.draft.where(regions[r].place), set));
+      file.draft.warn(regions[r].place, "region \"{}\" has no elements", set);
       continue;
     }
     index[r] = file.draft.region_index(set);
@@ -123,16 +114,16 @@ std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
   return materials;
 }
 
-LoadedMesh build(VegaFile& file) {
+LoadedMesh build_vega_mesh(VegaFile& file) {
   if (file.draft.cells.empty()) file.draft.fail({}, "no elements");
-  auto materials = settle_regions(file);
+  auto materials = add_regions(file);
   warn_of_unused_sets(file);
   LoadedMesh loaded = build_mesh(std::move(file.draft));
   loaded.materials = std::move(materials);
   return loaded;
 }
 
-// Lists of vertices that count from 1; so does the set, whatever the mesh counts from.
+// The list counts vertices from 1.
 void add_fixed(const FixedVertices& fixed, VegaFile& file) {
   const std::string text = read_text_file(fixed.path);
   TextTokens tokens(fixed.path, text, {.commas = true, .comment = "#"});
@@ -145,7 +136,7 @@ void add_fixed(const FixedVertices& fixed, VegaFile& file) {
     const FilePlace place{tokens.line(), number};
     while (tokens.peek() != '\0') {
       const std::int64_t vertex = tokens.integer("a vertex");
-      if (vertex < 1 || vertex > count) tokens.fail(fmt::format("vertex {}; the mesh has 1 to {}", vertex, count));
+      if (vertex < 1 || vertex > count) tokens.fail("vertex {}; the mesh has 1 to {}", vertex, count);
       set.push_back({vertex - 1 + first, place});
     }
     tokens.skip_line();
@@ -167,13 +158,13 @@ LoadedMesh read_vega(const std::string& path) { return read_vega_text(path, read
 
 LoadedMesh read_vega_text(const std::string& path, std::string_view text) {
   VegaFile file = read_vega_sections(path, text);
-  return build(file);
+  return build_vega_mesh(file);
 }
 
 LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed) {
   VegaFile file = read_vega_sections(path, read_text_file(path));
   add_fixed(fixed, file);
-  return build(file);
+  return build_vega_mesh(file);
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Vega FEM's meshes of tetrahedra or cubes (.veg, ASCII) and its lists of fixed vertices (.bou).
+// Reads and writes Vega FEM meshes of tetrahedra or cubes (.veg, ASCII) and lists of fixed vertices (.bou).
 //
 // Format: Barbic, Sin, Schroeder, Vega FEM library, user's manual, "volumetric mesh files"; behaviour
 // of its reader, version 4.
@@ -11,31 +11,30 @@
 
 namespace orthodyn {
 
-// Each *REGION makes a region under the name of its *SET ("allElements" is predefined), with its
-// material; where sets overlap the later *REGION wins, with a warning. In a file without *REGION the
-// sets are the regions, and without sets all is "body"; then there are no materials. Elements in no
-// region form "unassigned" and have none either. Materials: ENU and every ORTHOTROPIC variant, whose
-// one-ratio forms (_N1...) follow nu_ij = nu sqrt(E_i / E_j), G_ij = G sqrt(E_i E_j) / (2 (1 + nu))
-// (Li & Barbic 2014). R is row-major with the material axes as columns; it may be off by rounding
-// (1e-6), which is repaired with a warning.
+// Each *REGION becomes a region with the name of its *SET ("allElements" is predefined) and its material. Where sets
+// overlap, the last *REGION wins, with a warning. Without *REGION the sets are the regions; without sets there is one
+// region "body". Such regions have no material. Elements in no region form "unassigned", without a material. Materials
+// are ENU and every ORTHOTROPIC variant; the one-ratio forms (_N1...) mean nu_ij = nu sqrt(E_i/E_j) and G_ij = G
+// sqrt(E_i E_j) / (2 (1 + nu)) with a factor G (Li & Barbic 2014). R is row-major with the material axes as columns;
+// deviations from orthonormality up to 1e-6 are repaired, with a warning.
 //
-// *INCLUDE names a file relative to the one that includes. Vertices and elements count from 0 or 1,
-// without gaps. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
+// *INCLUDE paths are relative to the including file. Vertices and elements are numbered from 0 or 1 without gaps.
+// Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
 LoadedMesh read_vega(const std::string& path);
 
-// The same from a text; `path` is for messages and includes.
+// Reads from a text; `path` is for messages and includes.
 LoadedMesh read_vega_text(const std::string& path, std::string_view text);
 
-// A .bou file: vertices, counted from 1 whatever the mesh counts from, that become a node set.
+// A .bou file, whose vertices become a node set. It counts vertices from 1, even if the mesh counts from 0.
 struct FixedVertices {
   std::string path;
   std::string set = "fixed";
 };
 
-// Throws ConfigError for a vertex that the mesh does not have, too.
+// As above, with the node set. Also throws ConfigError for a vertex that the mesh does not have.
 LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed);
 
-// Regions as sets, with materials where they have them; the node set "fixed" as .bou file.
+// Writes regions as sets, materials, and the node set "fixed" as a .bou file.
 WrittenMesh write_vega(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

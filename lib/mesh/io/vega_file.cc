@@ -1,7 +1,5 @@
 #include "lib/mesh/io/vega_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -15,18 +13,19 @@ namespace orthodyn {
 namespace {
 
 constexpr Punctuation kPunctuation{.commas = true, .comment = "#"};
-constexpr std::size_t kMostIncludes = 1000;
-// One file may be included at several places, but not so often that a small one fills the memory.
-constexpr std::uintmax_t kMostReadings = 10;  // of all bytes, on average
+constexpr std::size_t kMaxIncludes = 1000;
+// A file may be included several times, within a bound on memory: included bytes <= kFreeIncludedBytes +
+// kMaxIncludeRatio * (bytes of distinct files).
+constexpr std::uintmax_t kMaxIncludeRatio = 10;
 constexpr std::uintmax_t kFreeIncludedBytes = 1'000'000;
 
 enum class Section { none, vertices, element_type, elements, set, material, region };
 
-// One spelling for each file: without "./", "..", and links.
-std::string spelled_alike(const std::string& path) {
+// The path without "./", "..", and links.
+std::string canonical_path(const std::string& path) {
   std::error_code error;
-  const std::string alike = std::filesystem::weakly_canonical(path, error).string();
-  return error ? path : alike;
+  const std::string canonical = std::filesystem::weakly_canonical(path, error).string();
+  return error ? path : canonical;
 }
 
 // Vega ignores blanks in names.
@@ -42,10 +41,8 @@ class VegaReader {
     file_.draft.nodes_section = "*VERTICES";
     read_lines(path, text);
     finish_section(last_);
-    if (!has_vertices_ || !has_elements_) {
-      file_.draft.fail(
-          last_, fmt::format("the file ends without *{}; is it truncated?", has_vertices_ ? "ELEMENTS" : "VERTICES"));
-    }
+    if (!has_vertices_ || !has_elements_)
+      file_.draft.fail(last_, "the file ends without *{}; is it truncated?", has_vertices_ ? "ELEMENTS" : "VERTICES");
     return std::move(file_);
   }
 
@@ -53,9 +50,9 @@ class VegaReader {
   void read_lines(const std::string& path, std::string_view text) {
     const int number = static_cast<int>(file_.draft.files.size());
     file_.draft.files.push_back(path);
-    const std::string alike = spelled_alike(path);
-    open_files_.push_back(alike);
-    if (known_files_.insert(alike).second) known_bytes_ += text.size();
+    const std::string canonical = canonical_path(path);
+    open_files_.push_back(canonical);
+    if (known_files_.insert(canonical).second) known_bytes_ += text.size();
     TextTokens tokens(path, text, kPunctuation);
     while (!tokens.at_end()) {
       last_ = {tokens.line(), number};
@@ -89,13 +86,13 @@ class VegaReader {
     } else if (keyword == "*REGION") {
       section_ = Section::region;
     } else {
-      tokens.fail(fmt::format("unknown keyword {}; known: *VERTICES, *ELEMENTS, *MATERIAL, *SET, *REGION, *INCLUDE",
-                              TextTokens::quoted(keyword)));
+      tokens.fail("unknown keyword {}; known: *VERTICES, *ELEMENTS, *MATERIAL, *SET, *REGION, *INCLUDE",
+                  TextTokens::quoted(keyword));
     }
     tokens.finish_line();
   }
 
-  // A second *SET of a name goes on with the first.
+  // A second *SET of a name continues the first.
   void begin_set(const std::string& name, FilePlace place) {
     const auto same =
         std::find_if(file_.sets.begin(), file_.sets.end(), [&](const VegaSet& s) { return s.name == name; });
@@ -103,13 +100,13 @@ class VegaReader {
     if (same == file_.sets.end()) {
       file_.sets.push_back({name, {}, place});
     } else {
-      file_.draft.warnings.push_back(fmt::format("{}: a second *SET {}: its elements are added to those of line {}",
-                                                 file_.draft.where(place), TextTokens::quoted(name), same->place.line));
+      file_.draft.warn(place, "a second *SET {}: its elements are added to those of line {}", TextTokens::quoted(name),
+                       same->place.line);
     }
   }
 
   void begin_once(bool& seen, const char* keyword, Section section) {
-    if (seen) file_.draft.fail(section_place_, fmt::format("a second {}", keyword));
+    if (seen) file_.draft.fail(section_place_, "a second {}", keyword);
     seen = true;
     section_ = section;
     announced_ = -1;
@@ -119,33 +116,25 @@ class VegaReader {
     namespace fs = std::filesystem;
     const std::string name(tokens.word("a file name"));
     const std::string path = (fs::path(tokens.path()).parent_path() / name).string();
-    if (std::count(open_files_.begin(), open_files_.end(), spelled_alike(path)) > 0) {
-      tokens.fail(fmt::format("{} includes itself", TextTokens::quoted(name)));
-    }
-    if (file_.draft.files.size() >= kMostIncludes) {
-      tokens.fail(fmt::format("more than {} included files", kMostIncludes));
-    }
-    std::error_code error;  // a name may be too long, too
-    if (!fs::is_regular_file(path, error)) {
-      tokens.fail(fmt::format("*INCLUDE {}: no such file: {}", TextTokens::quoted(name), path));
-    }
+    if (std::count(open_files_.begin(), open_files_.end(), canonical_path(path)) > 0)
+      tokens.fail("{} includes itself", TextTokens::quoted(name));
+    if (file_.draft.files.size() >= kMaxIncludes) tokens.fail("more than {} included files", kMaxIncludes);
+    std::error_code error;  // so that nothing is thrown, even for a name that is too long
+    if (!fs::is_regular_file(path, error)) tokens.fail("*INCLUDE {}: no such file: {}", TextTokens::quoted(name), path);
     tokens.finish_line();
     const std::string text = read_text_file(path);
     included_bytes_ += text.size();
-    if (included_bytes_ > kFreeIncludedBytes + kMostReadings * (known_bytes_ + text.size())) {
-      tokens.fail(
-          fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
-                      "include each once",
-                      TextTokens::quoted(name), kMostReadings));
-    }
+    if (included_bytes_ > kFreeIncludedBytes + kMaxIncludeRatio * (known_bytes_ + text.size()))
+      tokens.fail("*INCLUDE {}: the included text is more than {} times the size of the files; include each file once",
+                  TextTokens::quoted(name), kMaxIncludeRatio);
     read_lines(path, text);
   }
 
   void read_data(TextTokens& tokens) {
     switch (section_) {
       case Section::none:
-        tokens.fail(fmt::format("expected a keyword (*VERTICES), found {}; this is not a Vega mesh file (.veg)",
-                                TextTokens::quoted(tokens.word("a keyword"))));
+        tokens.fail("expected a keyword (*VERTICES), found {}; this is not a Vega mesh file (.veg)",
+                    TextTokens::quoted(tokens.word("a keyword")));
       case Section::vertices: return read_vertex(tokens);
       case Section::element_type: return read_element_type(tokens);
       case Section::elements: return read_element(tokens);
@@ -155,32 +144,29 @@ class VegaReader {
     }
   }
 
-  // "count 3 0 0" of vertices, "count 4 0" or "count 8 0" of elements; what follows the first two does not matter.
+  // "count 3 0 0" for vertices, "count 4 0" or "count 8 0" for elements; only the first two numbers are used.
   void read_header(TextTokens& tokens, const char* what, std::size_t width) {
     announced_ = tokens.count(what);
     if (tokens.peek() != '\0') {
       const std::int64_t found = tokens.integer("the numbers per line");
-      if (found != static_cast<std::int64_t>(width))
-        tokens.fail(fmt::format("{} numbers per line; expected {}", found, width));
+      if (found != static_cast<std::int64_t>(width)) tokens.fail("{} numbers per line; expected {}", found, width);
     }
     tokens.skip_line();
   }
 
-  // The number in the first column counts up from 0 or 1.
+  // The first column: consecutive numbers from 0 or 1.
   std::int64_t read_number(TextTokens& tokens, const char* what, std::size_t done, std::int64_t& first) {
     if (static_cast<std::int64_t>(done) >= announced_) {
       const char* records = section_ == Section::vertices ? "vertices" : "elements";
-      tokens.fail(fmt::format("more than the {} {} announced after line {}", announced_, records, section_place_.line));
+      tokens.fail("more than the {} {} announced after line {}", announced_, records, section_place_.line);
     }
     const std::int64_t number = tokens.integer(what);
     if (done == 0) {
-      if (number != 0 && number != 1)
-        tokens.fail(fmt::format("the first {} is {}; they count from 0 or 1", what, number));
+      if (number != 0 && number != 1) tokens.fail("the first {} is {}; they count from 0 or 1", what, number);
       first = number;
     }
     const std::int64_t expected = first + static_cast<std::int64_t>(done);
-    if (number != expected)
-      tokens.fail(fmt::format("{} {} where {} is expected; they count without gaps", what, number, expected));
+    if (number != expected) tokens.fail("{} {} where {} is expected; they count without gaps", what, number, expected);
     return number;
   }
 
@@ -196,7 +182,7 @@ class VegaReader {
   void read_element_type(TextTokens& tokens) {
     const std::string type(tokens.word("TET"));
     if (type != "TET" && type != "TETS" && type != "CUBIC")
-      tokens.fail(fmt::format("element type {}; expected TET or CUBIC", TextTokens::quoted(type)));
+      tokens.fail("element type {}; expected TET or CUBIC", TextTokens::quoted(type));
     kind_ = type == "CUBIC" ? CellKind::hexahedron : CellKind::tet;
     tokens.finish_line();
     section_ = Section::elements;
@@ -218,9 +204,8 @@ class VegaReader {
 
   void read_material(TextTokens& tokens) {
     MeshMaterial material = read_vega_material(tokens, material_name_, file_.draft.warnings);
-    if (!file_.materials.emplace(material_name_, std::move(material)).second) {
-      file_.draft.fail(section_place_, fmt::format("a second *MATERIAL {}", TextTokens::quoted(material_name_)));
-    }
+    if (!file_.materials.emplace(material_name_, std::move(material)).second)
+      file_.draft.fail(section_place_, "a second *MATERIAL {}", TextTokens::quoted(material_name_));
     section_ = Section::none;
   }
 
@@ -235,11 +220,10 @@ class VegaReader {
   void finish_section(FilePlace next) {
     const auto expect = [&](const char* keyword, const char* what, std::size_t found) {
       if (announced_ < 0)
-        file_.draft.fail(next,
-                         fmt::format("{} (line {}) ends without its count of {}", keyword, section_place_.line, what));
+        file_.draft.fail(next, "{} (line {}) ends without its count of {}", keyword, section_place_.line, what);
       if (static_cast<std::int64_t>(found) == announced_) return;
-      file_.draft.fail(next, fmt::format("{} of the {} {} announced after line {}; is the file truncated?", found,
-                                         announced_, what, section_place_.line));
+      file_.draft.fail(next, "{} of the {} {} announced after line {}; is the file truncated?", found, announced_, what,
+                       section_place_.line);
     };
     switch (section_) {
       case Section::vertices: expect("*VERTICES", "vertices", file_.draft.nodes.size()); break;
@@ -247,8 +231,7 @@ class VegaReader {
       case Section::element_type:
       case Section::material:
       case Section::region:
-        file_.draft.fail(next,
-                         fmt::format("the section of line {} is empty; is the file truncated?", section_place_.line));
+        file_.draft.fail(next, "the section of line {} is empty; is the file truncated?", section_place_.line);
       case Section::none:
       case Section::set: break;
     }
@@ -258,15 +241,15 @@ class VegaReader {
   VegaFile file_;
   std::vector<std::string> open_files_;
   std::set<std::string> known_files_;
-  std::uintmax_t known_bytes_ = 0, included_bytes_ = 0;  // each file once; each as often as it is read
+  std::uintmax_t known_bytes_ = 0, included_bytes_ = 0;  // bytes of distinct files; of all *INCLUDEs
   Section section_ = Section::none;
   FilePlace section_place_, last_;
   bool has_vertices_ = false, has_elements_ = false;
-  std::int64_t announced_ = -1;    // -1: its line is still to come
+  std::int64_t announced_ = -1;    // -1: not read yet
   CellKind kind_ = CellKind::tet;  // of all elements
   std::int64_t first_vertex_ = 1;
   std::string material_name_;
-  std::size_t set_ = 0;  // index of the one that is being read
+  std::size_t set_ = 0;  // index of the current set
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a .veg file says: a draft of the mesh, sets of elements, materials and regions.
+// The content of a .veg file: a draft of the mesh, element sets, materials and regions.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace orthodyn {
 
 struct VegaSet {
   std::string name;
-  std::vector<FileNodeUse> elements;  // numbers of elements, as in the file
+  std::vector<FileNodeUse> elements;  // element numbers, as in the file
   FilePlace place;
 };
 
@@ -24,19 +24,19 @@ struct VegaRegion {
 };
 
 struct VegaFile {
-  MeshDraft draft;  // nodes and tets; regions are not assigned yet
+  MeshDraft draft;  // nodes and cells, without regions
   std::int64_t first_element = 1;
   std::vector<VegaSet> sets;
   std::map<std::string, MeshMaterial> materials;
   std::vector<VegaRegion> regions;
 };
 
-// Reads the file and what it includes. Throws ConfigError.
+// Reads the file and its includes. Throws ConfigError.
 VegaFile read_vega_sections(const std::string& path, std::string_view text);
 
-// The line below *MATERIAL: "ENU, density, E, nu" or "ORTHOTROPIC..., density, E1, E2, E3, ...". Leaves the cursor
-// behind the line. Throws ConfigError for other kinds, for a wrong count of numbers, and for axes that are not
-// orthonormal by more than rounding; warns where these were repaired.
+// Reads the line after *MATERIAL: "ENU, density, E, nu" or "ORTHOTROPIC..., density, E1, E2, E3, ...". Throws
+// ConfigError for other kinds, a wrong count of numbers, and axes that deviate from orthonormality by more than 1e-6;
+// smaller deviations are repaired with a warning.
 MeshMaterial read_vega_material(TextTokens& tokens, const std::string& name, Warnings& warnings);
 
 }  // namespace orthodyn

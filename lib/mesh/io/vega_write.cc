@@ -1,4 +1,4 @@
-// Vega: sets, materials and regions; .bou for the node set "fixed".
+// Implements write_vega().
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace orthodyn {
 namespace {
 
-// Blanks and commas have another meaning there.
+// Replaces the characters with a meaning in the format.
 std::string vega_name(std::string name) {
   const auto has_meaning = [](char c) { return (c >= '\0' && c <= ' ') || c == ',' || c == '#' || c == '*'; };
   std::replace_if(name.begin(), name.end(), has_meaning, '_');
@@ -35,8 +35,7 @@ std::string material_line(const MeshMaterial& m) {
 bool can_hold(const MeshMaterial& m, Warnings& losses) {
   const bool holds = m.problem.empty() && m.kind != MeshMaterial::Kind::anisotropic;
   if (!m.problem.empty()) losses.push_back(fmt::format("material \"{}\" is lost: {}", m.name, m.problem));
-  else if (!holds)
-    losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness by its entries: lost", m.name));
+  else if (!holds) losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness matrix: lost", m.name));
   for (const auto& [where, name] : m.beyond)
     losses.push_back(fmt::format("the format cannot hold {} of material \"{}\": lost", name, m.name));
   if (holds && !m.axes_file.empty())
@@ -44,7 +43,7 @@ bool can_hold(const MeshMaterial& m, Warnings& losses) {
   return holds;
 }
 
-// Numbers from 1, ten on a line, each with a comma behind it.
+// Numbers from 1, ten per line, each followed by a comma.
 std::string number_list(const std::vector<int>& indices) {
   std::string text;
   for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -65,16 +64,15 @@ void add_vega_mesh(TextLines& lines, const TetMesh& mesh) {
 
 std::vector<int> elements_in(const TetMesh& mesh, int region) {
   std::vector<int> elements;
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
     if (mesh.region_of[e] == region) elements.push_back(static_cast<int>(e));
-  }
   return elements;
 }
 
-// The sets of all regions, then the materials, then which set has which.
+// The sets of all regions, then materials, then the material of each set.
 void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
   using NameAndLine = std::pair<std::string, std::string>;
-  std::map<NameAndLine, std::string> materials;  // and the name in the file
+  std::map<NameAndLine, std::string> materials;  // -> name in the file
   std::map<std::string, std::string> material_of;
   TakenNames set_names, material_names;
   for (std::size_t r = 0; r < loaded.mesh.region_names.size(); ++r) {
@@ -87,9 +85,8 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
     const auto m = loaded.materials.find(region);
     if (m == loaded.materials.end() || !can_hold(m->second, losses)) continue;
     const NameAndLine material{m->second.name, material_line(m->second)};
-    if (!materials.contains(material)) {
+    if (!materials.contains(material))
       materials[material] = unique_name(material_names, material.first, vega_name(material.first), losses);
-    }
     material_of[name] = materials[material];
   }
   for (const auto& [material, name] : materials) lines.text("\n*MATERIAL " + name + "\n" + material.second);

@@ -1,13 +1,12 @@
 #include "lib/mesh/io/vtk.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <utility>
 
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vtk_grid.h"
+#include "lib/mesh/io/vtu_bytes.h"
 
 namespace orthodyn {
 namespace {
@@ -24,9 +23,8 @@ class VtkReader {
 
  private:
   void read_header() {
-    if (tokens_.at_end() || !tokens_.rest_of_line().starts_with("# vtk DataFile")) {
+    if (tokens_.at_end() || !tokens_.rest_of_line().starts_with("# vtk DataFile"))
       tokens_.fail("no \"# vtk DataFile\": this is not a legacy VTK file (.vtk)");
-    }
     tokens_.skip_line();
     const int title_line = tokens_.line();
     std::string word = keyword();
@@ -39,8 +37,7 @@ class VtkReader {
     tokens_.finish_line();
     if (keyword() != "DATASET") tokens_.fail("expected DATASET");
     const std::string type = keyword();
-    if (type != "UNSTRUCTURED_GRID")
-      tokens_.fail(fmt::format("DATASET {}; expected UNSTRUCTURED_GRID", TextTokens::quoted(type)));
+    if (type != "UNSTRUCTURED_GRID") tokens_.fail("DATASET {}; expected UNSTRUCTURED_GRID", TextTokens::quoted(type));
     tokens_.finish_line();
   }
 
@@ -83,8 +80,8 @@ class VtkReader {
     return end != std::string_view::npos && rest.substr(end + 1).starts_with(word);
   }
 
-  // Up to 4.2 "count size" and for each cell its number of points and these; later "offsets entries"
-  // and two arrays.
+  // Up to version 4.2: "count size", then for each cell its number of points and the points. Later: "offsets entries",
+  // then two arrays.
   void read_cells() {
     const std::uint64_t first = count("the number of cells");
     const std::uint64_t size = count("the number of entries");
@@ -92,7 +89,7 @@ class VtkReader {
       tokens_.finish_line();
       keyword();
       grid_.offsets = read_array(first, 1);
-      if (!grid_.offsets.empty()) grid_.offsets.erase(grid_.offsets.begin());  // a zero
+      if (!grid_.offsets.empty()) grid_.offsets.erase(grid_.offsets.begin());  // the leading zero
       if (keyword() != "CONNECTIVITY") tokens_.fail("expected CONNECTIVITY");
       grid_.connectivity = read_array(size, 1);
       return;
@@ -100,24 +97,21 @@ class VtkReader {
     const std::vector<double> entries = read_numbers(size, {'i', 4});
     std::size_t at = 0;
     for (std::uint64_t c = 0; c < first; ++c) {
-      if (at >= entries.size()) tokens_.fail(fmt::format("CELLS: {} entries are too few for {} cells", size, first));
+      if (at >= entries.size()) tokens_.fail("CELLS: {} entries are too few for {} cells", size, first);
       const double points = entries[at++];
-      if (!(points >= 0 && points <= static_cast<double>(entries.size() - at))) {
-        tokens_.fail(fmt::format("CELLS: cell {} of {} points", c, points));
-      }
+      if (!(points >= 0 && points <= static_cast<double>(entries.size() - at)))
+        tokens_.fail("CELLS: cell {} of {} points", c, points);
       for (double k = 0; k < points; ++k) grid_.connectivity.push_back(entries[at++]);
       grid_.offsets.push_back(static_cast<double>(grid_.connectivity.size()));
     }
-    if (at != entries.size()) tokens_.fail(fmt::format("CELLS: {} entries are too many for {} cells", size, first));
+    if (at != entries.size()) tokens_.fail("CELLS: {} entries are too many for {} cells", size, first);
   }
 
   void read_attribute(const std::string& kind) {
-    if (kind != "SCALARS" && kind != "VECTORS" && kind != "NORMALS" && kind != "TENSORS") {
-      tokens_.fail(
-          fmt::format("unknown or unsupported keyword {}; save the file with plain scalars, vectors, tensors or fields",
-                      TextTokens::quoted(kind)));
-    }
-    if (!target_) tokens_.fail(fmt::format("{} before CELL_DATA or POINT_DATA", kind));
+    if (kind != "SCALARS" && kind != "VECTORS" && kind != "NORMALS" && kind != "TENSORS")
+      tokens_.fail("unknown or unsupported keyword {}; save the file with plain scalars, vectors, tensors or fields",
+                   TextTokens::quoted(kind));
+    if (!target_) tokens_.fail("{} before CELL_DATA or POINT_DATA", kind);
     CellData data{.name = std::string(tokens_.word("a name"))};
     const VtkType type = read_type();
     data.components = kind == "SCALARS" ? 1 : kind == "TENSORS" ? 9 : 3;
@@ -145,28 +139,29 @@ class VtkReader {
       data.components = read_components();
       const std::uint64_t tuples = count("the number of values");
       data.values = read_numbers(times(tuples, data.components), read_type());
-      if (target_ && tuples == tuples_) target_->push_back(std::move(data));  // else it belongs to the whole file
+      if (target_ && tuples == tuples_)
+        target_->push_back(std::move(data));  // otherwise the array belongs to the whole file
     }
   }
 
-  // Colors of pictures: bytes in a binary file, real numbers in a text.
+  // Colors are bytes in a binary file, real numbers in a text file.
   void skip_colors(std::uint64_t numbers) { read_numbers(numbers, {'u', 1}); }
 
   int read_components() {
     const std::int64_t components = tokens_.integer("the number of components");
-    if (components < 1 || components > 1000) tokens_.fail(fmt::format("{} components", components));
+    if (components < 1 || components > 1000) tokens_.fail("{} components", components);
     return static_cast<int>(components);
   }
 
   std::uint64_t times(std::uint64_t tuples, int components) const {
-    if (tuples > (std::uint64_t{1} << 40)) tokens_.fail(fmt::format("{} values announced", tuples));
+    if (tuples > (std::uint64_t{1} << 40)) tokens_.fail("{} values announced", tuples);
     return tuples * static_cast<std::uint64_t>(components);
   }
 
   VtkType read_type() {
     const std::string name(tokens_.word("a type"));
     const auto type = vtk_type(name);
-    if (!type) tokens_.fail("unknown type " + TextTokens::quoted(name));
+    if (!type) tokens_.fail("unknown type {}", TextTokens::quoted(name));
     return *type;
   }
 
@@ -175,7 +170,7 @@ class VtkReader {
     return read_numbers(times(tuples, components), type);
   }
 
-  // From the next line on.
+  // Reads numbers that start on the next line.
   std::vector<double> read_numbers(std::uint64_t numbers, VtkType type) {
     return binary_ ? read_binary(numbers, type) : read_ascii(numbers);
   }
@@ -191,23 +186,17 @@ class VtkReader {
     return out;
   }
 
-  // Big-endian whatever the machine is.
+  // Binary numbers are big-endian.
   std::vector<double> read_binary(std::uint64_t numbers, VtkType type) {
     const std::string_view rest = tokens_.rest_of_file();
     const std::size_t begin = std::min(rest.find('\n'), rest.size());
     const std::size_t available = rest.size() - std::min(begin + 1, rest.size());
-    if (numbers > available / type.width) {
-      tokens_.fail(fmt::format("{} binary numbers announced, but the file ends before; is it truncated?", numbers));
-    }
+    if (numbers > available / type.width)
+      tokens_.fail("{} binary numbers announced, but the file ends before; is it truncated?", numbers);
     const std::size_t bytes = static_cast<std::size_t>(numbers) * type.width;
     std::string block(rest.substr(std::min(begin + 1, rest.size()), bytes));
     tokens_.skip_bytes(begin + 1 + bytes);
-    if (std::endian::native == std::endian::little) {
-      for (std::size_t i = 0; i + type.width <= block.size(); i += type.width) {
-        std::reverse(block.begin() + static_cast<std::ptrdiff_t>(i),
-                     block.begin() + static_cast<std::ptrdiff_t>(i + type.width));
-      }
-    }
+    if (std::endian::native == std::endian::little) swap_bytes(block, type.width);
     return vtk_numbers(block, type);
   }
 

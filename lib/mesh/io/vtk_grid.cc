@@ -20,7 +20,10 @@
 namespace orthodyn {
 namespace {
 
-[[noreturn]] void fail(const VtkGrid& grid, const std::string& message) { throw ConfigError(grid.path, message); }
+template <class... Args>
+[[noreturn]] void fail(const VtkGrid& grid, fmt::format_string<Args...> message, Args&&... args) {
+  throw ConfigError(grid.path, fmt::format(message, std::forward<Args>(args)...));
+}
 
 std::string name_of_type(int type) {
   static const std::map<int, const char*> names{
@@ -32,36 +35,35 @@ std::string name_of_type(int type) {
 // An integer in [low, high].
 std::int64_t whole(const VtkGrid& grid, double x, double low, double high, const std::string& what) {
   if (x >= low && x <= high && x == std::floor(x)) return static_cast<std::int64_t>(x);
-  fail(grid, fmt::format("{} is {}; expected an integer from {} to {}", what, x, low, high));
+  fail(grid, "{} is {}; expected an integer from {} to {}", what, x, low, high);
 }
 
 void check_sizes(const VtkGrid& grid) {
-  if (grid.points.size() % 3 != 0)
-    fail(grid, fmt::format("{} coordinates are not three per point", grid.points.size()));
-  if (grid.types.size() != grid.offsets.size()) {
-    fail(grid, fmt::format("{} types and {} offsets for the same cells", grid.types.size(), grid.offsets.size()));
-  }
+  if (grid.points.size() % 3 != 0) fail(grid, "{} coordinates are not three per point", grid.points.size());
+  if (grid.types.size() != grid.offsets.size())
+    fail(grid, "{} types and {} offsets for the same cells", grid.types.size(), grid.offsets.size());
   const auto check = [&](const std::vector<CellData>& arrays, std::size_t tuples, const char* what) {
     for (const CellData& data : arrays) {
       if (data.components >= 1 && data.values.size() == tuples * static_cast<std::size_t>(data.components)) continue;
-      fail(grid, fmt::format("array \"{}\" has {} values; expected {} {} with {} components", data.name,
-                             data.values.size(), tuples, what, data.components));
+      fail(grid, "array \"{}\" has {} values; expected {} {} with {} components", data.name, data.values.size(), tuples,
+           what, data.components);
     }
   };
   check(grid.cell_data, grid.types.size(), "cells");
   check(grid.point_data, grid.points.size() / 3, "points");
 }
 
-// A type of solid cells, by vtkCellType.h.
+// A solid cell type of vtkCellType.h.
 struct VtkSolid {
   CellKind kind;
   std::size_t points;
-  Places corners;                                      // in the order of cell_kind.h
-  std::vector<std::array<std::size_t, 4>> faces = {};  // those that have a node within
+  CornerIndices corners;                               // in the order of cell_kind.h
+  std::vector<std::array<std::size_t, 4>> faces = {};  // faces with a centre node
 };
 
 const VtkSolid* solid_of(double type) {
-  static const Places four{0, 1, 2, 3}, five{0, 1, 2, 3, 4}, six{0, 1, 2, 3, 4, 5}, eight{0, 1, 2, 3, 4, 5, 6, 7};
+  static const CornerIndices four{0, 1, 2, 3}, five{0, 1, 2, 3, 4}, six{0, 1, 2, 3, 4, 5},
+      eight{0, 1, 2, 3, 4, 5, 6, 7};
   static const std::map<double, VtkSolid> solids{
       {kVtkTetra, {CellKind::tet, 4, four}},
       {kVtkQuadraticTetra, {CellKind::tet, 10, four}},
@@ -82,13 +84,13 @@ const VtkSolid* solid_of(double type) {
   return found == solids.end() ? nullptr : &found->second;
 }
 
-// Vertices, lines, triangles and quadrilaterals of first and second order: nothing is made of them.
+// Vertices, lines, triangles and quadrilaterals of first and second order, which are ignored.
 bool is_flat(int type) {
   static const std::set<int> flat{0, 1, 2, 3, 4, 5, 8, 9, 21, 22, 23, 28};
   return flat.contains(type);
 }
 
-// The cells that are solid; the others are counted or refused.
+// Indices of the solid cells. Fails for unsupported ones, warns of ignored ones.
 std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
   std::vector<std::size_t> solids;
   double begin = 0;
@@ -99,38 +101,35 @@ std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
     const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
     if (const VtkSolid* solid = solid_of(type)) {
       if (end - begin != static_cast<double>(solid->points))
-        fail(grid, fmt::format("cell {}: a {} (type {}) of {} points; expected {}", c, name_of(solid->kind), type,
-                               end - begin, solid->points));
+        fail(grid, "cell {}: a {} (type {}) of {} points; expected {}", c, name_of(solid->kind), type, end - begin,
+             solid->points);
       solids.push_back(c);
     } else if (!is_flat(type)) {
-      fail(grid, fmt::format("cell {}: a {}; only tetrahedra, hexahedra, wedges and pyramids of first or second order "
-                             "are read, with vertices, lines and faces beside them: mesh again, or cut the cells "
-                             "(ParaView: Tetrahedralize)",
-                             c, name_of_type(type)));
+      fail(grid,
+           "cell {}: a {}; only tetrahedra, hexahedra, wedges and pyramids of first or second order are read, with "
+           "vertices, lines and faces beside them: mesh again, or cut the cells (ParaView: Tetrahedralize)",
+           c, name_of_type(type));
     }
     begin = end;
   }
-  if (begin != static_cast<double>(grid.connectivity.size())) {
-    fail(grid, fmt::format("connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin));
-  }
+  if (begin != static_cast<double>(grid.connectivity.size()))
+    fail(grid, "connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin);
   if (solids.empty()) {
     const bool has_faces = std::any_of(grid.types.begin(), grid.types.end(),
                                        [](double type) { return type == 5 || type == 9 || type == 22 || type == 23; });
     fail(grid,
-         fmt::format(
-             "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
-             has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside" : ""));
+
+         "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
+         has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside" : "");
   }
-  if (solids.size() < grid.types.size()) {
-    draft.warnings.push_back(fmt::format("{}: {} vertices, lines, triangles and quadrilaterals are ignored", grid.path,
-                                         grid.types.size() - solids.size()));
-  }
+  if (solids.size() < grid.types.size())
+    draft.warn({}, "{} vertices, lines, triangles and quadrilaterals are ignored", grid.types.size() - solids.size());
   return solids;
 }
 
-// VTK's manual has the normal of a wedge's base point outward; in files it may point inward (Gmsh 4.8: outward in first
-// order, inward in second). The nodes tell.
-void turn_wedge(FileCell& cell, const std::vector<FileNode>& nodes) {
+// The normal of a wedge's base points outward in VTK's manual, but inward in some files (Gmsh 4.8: outward in first
+// order, inward in second). The coordinates decide.
+void orient_wedge(FileCell& cell, const std::vector<FileNode>& nodes) {
   const auto x = [&](std::size_t k) -> const Vec3& { return nodes[static_cast<std::size_t>(cell.nodes[k])].x; };
   const Vec3 normal = (x(1) - x(0)).cross(x(2) - x(0)) + (x(4) - x(3)).cross(x(5) - x(3));
   if (normal.dot(x(3) + x(4) + x(5) - x(0) - x(1) - x(2)) >= 0) return;
@@ -139,10 +138,9 @@ void turn_wedge(FileCell& cell, const std::vector<FileNode>& nodes) {
 
 void add_nodes_and_cells(const VtkGrid& grid, const std::vector<std::size_t>& solids, MeshDraft& draft) {
   const std::size_t points = grid.points.size() / 3;
-  for (std::size_t p = 0; p < points; ++p) {
+  for (std::size_t p = 0; p < points; ++p)
     draft.nodes.push_back(
         {static_cast<std::int64_t>(p), {}, Vec3(grid.points[3 * p], grid.points[3 * p + 1], grid.points[3 * p + 2])});
-  }
   for (const std::size_t c : solids) {
     const VtkSolid& solid = *solid_of(grid.types[c]);
     FileCell cell{.tag = static_cast<std::int64_t>(c), .kind = solid.kind};
@@ -157,24 +155,23 @@ void add_nodes_and_cells(const VtkGrid& grid, const std::vector<std::size_t>& so
       for (std::size_t k = 0; k < 6; ++k) (*cell.midsides)[k] = point(4 + k);
     } else if (solid.points > solid.corners.size()) {
       const auto& edges = edges_of(cell.kind);
-      for (std::size_t e = 0; e < edges.size(); ++e)
-        cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], point(solid.corners.size() + e)});
+      std::vector<std::int64_t> middles;
+      for (std::size_t e = 0; e < edges.size(); ++e) middles.push_back(point(solid.corners.size() + e));
+      cell.add_edge_middles(edges, middles);
       const std::size_t behind = solid.corners.size() + edges.size();
       for (std::size_t f = 0; f < solid.faces.size() && behind + f < solid.points; ++f)
         cell.add_face_middle(solid.faces[f], point(behind + f));
       if (behind + solid.faces.size() < solid.points) cell.add_centre(point(solid.points - 1));
     }
-    if (cell.kind == CellKind::wedge) turn_wedge(cell, draft.nodes);
+    if (cell.kind == CellKind::wedge) orient_wedge(cell, draft.nodes);
     draft.cells.push_back(cell);
   }
 }
 
 const CellData* region_data(const VtkGrid& grid) {
-  for (const char* name : {"region", "gmsh:physical"}) {
-    for (const CellData& data : grid.cell_data) {
+  for (const char* name : {"region", "gmsh:physical"})
+    for (const CellData& data : grid.cell_data)
       if (data.name == name && data.components == 1) return &data;
-    }
-  }
   return nullptr;
 }
 
@@ -185,17 +182,15 @@ void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& solids, Me
     return;
   }
   std::map<std::int64_t, int> index;
-  for (const std::size_t c : solids) {
+  for (const std::size_t c : solids)
     index[whole(grid, data->values[c], -1e9, 1e9, fmt::format("cell data \"{}\" of cell {}", data->name, c))] = 0;
-  }
   for (auto& [number, region] : index) {
     const bool named = number >= 0 && number < static_cast<std::int64_t>(grid.region_names.size());
     region = draft.region_index(named ? grid.region_names[static_cast<std::size_t>(number)]
                                       : fmt::format("region{}", number));
   }
-  for (std::size_t k = 0; k < solids.size(); ++k) {
+  for (std::size_t k = 0; k < solids.size(); ++k)
     draft.cells[k].region = index.at(static_cast<std::int64_t>(data->values[solids[k]]));
-  }
 }
 
 void add_node_sets(const VtkGrid& grid, MeshDraft& draft) {
@@ -203,13 +198,12 @@ void add_node_sets(const VtkGrid& grid, MeshDraft& draft) {
   for (const CellData& data : grid.point_data) {
     if (!data.name.starts_with(prefix) || data.components != 1) continue;
     auto& set = draft.node_sets[data.name.substr(prefix.size())];
-    for (std::size_t p = 0; p < data.values.size(); ++p) {
+    for (std::size_t p = 0; p < data.values.size(); ++p)
       if (data.values[p] != 0) set.push_back({static_cast<std::int64_t>(p), {}});
-    }
   }
 }
 
-// Each tet has the values of the cell that it was cut from.
+// Each tet gets the values of the cell that it was cut from.
 std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<std::size_t>& solids,
                                    const TetMesh& mesh) {
   for (CellData& data : all) {

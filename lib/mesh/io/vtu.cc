@@ -19,21 +19,21 @@
 namespace orthodyn {
 namespace {
 
-// Zlib packs zeros 1:1000, but no file is all zeros. Arrays may share their bytes, so each alone is no bound.
-constexpr std::uint64_t kHighestRatio = 1000;
-constexpr std::uint64_t kFreeBytes = 1'000'000;
+// Bound on the unpacked size of all arrays, relative to the file size: zlib packs zeros about 1000:1. The bound is on
+// the sum, because arrays may share their bytes.
+constexpr std::uint64_t kMaxUnpackRatio = 1000;
+constexpr std::uint64_t kFreeUnpackedBytes = 1'000'000;
 
 class VtuReader {
  public:
   VtuReader(const std::string& path, std::string_view text)
-      : path_(path), text_(text), budget_(kFreeBytes + kHighestRatio * text.size()) {}
+      : path_(path), text_(text), budget_(kFreeUnpackedBytes + kMaxUnpackRatio * text.size()) {}
 
   VtkGrid read() {
     split_appended_data();
     const pugi::xml_parse_result parsed =
         document_.load_buffer(xml_.data(), xml_.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!parsed)
-      fail_at(parsed.offset, fmt::format("not well-formed XML ({}); is the file truncated?", parsed.description()));
+    if (!parsed) fail_at(parsed.offset, "not well-formed XML ({}); is the file truncated?", parsed.description());
     const pugi::xml_node file = document_.child("VTKFile");
     if (!file) throw ConfigError(path_, "no <VTKFile>: this is not a VTK XML file (.vtu)");
     read_encoding(file);
@@ -41,7 +41,7 @@ class VtuReader {
   }
 
  private:
-  // Raw data are no XML: the document ends where they begin.
+  // Raw data are not XML: cuts them off and closes the document.
   void split_appended_data() {
     const std::size_t tag = text_.find("<AppendedData");
     const std::size_t close = text_.find('>', tag == std::string_view::npos ? text_.size() : tag);
@@ -51,28 +51,25 @@ class VtuReader {
     }
     xml_ = std::string(text_.substr(0, close + 1)) + "</AppendedData></VTKFile>";
     const std::size_t mark = text_.find('_', close);
-    if (mark == std::string_view::npos) fail_at(tag, "<AppendedData> without its mark \"_\"; is the file truncated?");
+    if (mark == std::string_view::npos)
+      fail_at(static_cast<std::ptrdiff_t>(tag), "<AppendedData> without its mark \"_\"; is the file truncated?");
     appended_ = text_.substr(mark + 1);
   }
 
   void read_encoding(const pugi::xml_node& file) {
     const std::string type = file.attribute("type").value();
-    if (type != "UnstructuredGrid") {
-      fail(file, fmt::format("a VTK file of type {}; expected UnstructuredGrid", TextTokens::quoted(type)));
-    }
+    if (type != "UnstructuredGrid")
+      fail(file, "a VTK file of type {}; expected UnstructuredGrid", TextTokens::quoted(type));
     const std::string order = file.attribute("byte_order").as_string("LittleEndian");
     encoding_.swap = (order == "BigEndian") != (std::endian::native == std::endian::big);
     const std::string header = file.attribute("header_type").as_string("UInt32");
-    if (header != "UInt32" && header != "UInt64") {
-      fail(file, fmt::format("header_type {}; expected UInt32 or UInt64", TextTokens::quoted(header)));
-    }
+    if (header != "UInt32" && header != "UInt64")
+      fail(file, "header_type {}; expected UInt32 or UInt64", TextTokens::quoted(header));
     encoding_.header_width = header == "UInt32" ? 4 : 8;
     const std::string compressor = file.attribute("compressor").value();
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-      fail(file,
-           fmt::format("compressor {}; only vtkZLibDataCompressor is read: save again with zlib or without compression",
-                       TextTokens::quoted(compressor)));
-    }
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+      fail(file, "compressor {}; only vtkZLibDataCompressor is read: save again with zlib or without compression",
+           TextTokens::quoted(compressor));
     encoding_.zlib = !compressor.empty();
     const std::string appended = file.child("AppendedData").attribute("encoding").as_string("base64");
     appended_base64_ = appended != "raw";
@@ -81,9 +78,8 @@ class VtuReader {
   VtkGrid read_grid(const pugi::xml_node& file) {
     const pugi::xml_node grid_node = child(file, "UnstructuredGrid");
     const pugi::xml_node piece = child(grid_node, "Piece");
-    if (piece.next_sibling("Piece")) {
+    if (piece.next_sibling("Piece"))
       fail(piece, "several pieces; only one is read: merge them (ParaView: Merge Blocks, Clean to Grid)");
-    }
     VtkGrid grid{.path = path_};
     grid.points = read_array(child(child(piece, "Points"), "DataArray")).values;
     const pugi::xml_node cells = child(piece, "Cells");
@@ -92,21 +88,17 @@ class VtuReader {
     grid.types = read_array(named(cells, "types")).values;
     check_count(piece, "NumberOfPoints", grid.points.size() / 3);
     check_count(piece, "NumberOfCells", grid.types.size());
-    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) {
+    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray"))
       grid.cell_data.push_back(read_array(array, grid.types.size()));
-    }
-    for (const pugi::xml_node& array : piece.child("PointData").children("DataArray")) {
-      if (std::string_view(array.attribute("Name").value()).starts_with("nodes:")) {
+    for (const pugi::xml_node& array : piece.child("PointData").children("DataArray"))
+      if (std::string_view(array.attribute("Name").value()).starts_with("nodes:"))
         grid.point_data.push_back(read_array(array, grid.points.size() / 3));
-      }
-    }
-    for (const pugi::xml_node& array : grid_node.child("FieldData").children()) {
+    for (const pugi::xml_node& array : grid_node.child("FieldData").children())
       if (std::string_view(array.attribute("Name").value()) == "region_names") read_region_names(array, grid);
-    }
     return grid;
   }
 
-  // Strings as the codes of their characters, each ended by a zero.
+  // Character codes, with a zero after each name.
   void read_region_names(const pugi::xml_node& array, VtkGrid& grid) {
     std::string name;
     for (const double code : read_array(array).values) {
@@ -120,36 +112,32 @@ class VtuReader {
 
   void check_count(const pugi::xml_node& piece, const char* attribute, std::size_t found) const {
     const pugi::xml_attribute given = piece.attribute(attribute);
-    if (given && given.as_ullong() != found) {
-      fail(piece, fmt::format("{}=\"{}\", but the arrays hold {}", attribute, given.value(), found));
-    }
+    if (given && given.as_ullong() != found)
+      fail(piece, "{}=\"{}\", but the arrays hold {}", attribute, given.value(), found);
   }
 
-  // With this number of tuples, if it is known.
+  // `tuples`: the expected number of tuples, if known.
   CellData read_array(const pugi::xml_node& array, std::optional<std::size_t> tuples = {}) {
     const std::string name = array.attribute("Name").value();
     CellData data{.name = name, .components = array.attribute("NumberOfComponents").as_int(1)};
-    if (data.components < 1)
-      fail(array, fmt::format("array {}: {} components", TextTokens::quoted(name), data.components));
+    if (data.components < 1) fail(array, "array {}: {} components", TextTokens::quoted(name), data.components);
     try {
       data.values = read_values(array, data.components, tuples);
     } catch (const std::runtime_error& error) {
-      fail(array, fmt::format("array {}: {}", TextTokens::quoted(name), error.what()));
+      fail(array, "array {}: {}", TextTokens::quoted(name), error.what());
     }
     return data;
   }
 
   void admit(std::uint64_t values, int components, std::optional<std::size_t> tuples) {
     const auto width = static_cast<std::uint64_t>(components);
-    if (tuples && (values % width != 0 || values / width != *tuples)) {
+    if (tuples && (values % width != 0 || values / width != *tuples))
       throw std::runtime_error(fmt::format("{} values; expected {} with {} components", values, *tuples, components));
-    }
-    if (values > budget_ / sizeof(double)) {
+    if (values > budget_ / sizeof(double))
       throw std::runtime_error(
-          fmt::format("the arrays unpack to more than {} times the size of the file; "
-                      "do several stand at one offset? Write each by itself",
-                      kHighestRatio));
-    }
+          fmt::format("the arrays unpack to more than {} times the size of the file; do several share an offset? Write "
+                      "each separately",
+                      kMaxUnpackRatio));
     budget_ -= values * sizeof(double);
   }
 
@@ -166,7 +154,7 @@ class VtuReader {
       encoding.base64 = appended_base64_;
       const std::uint64_t offset = array.attribute("offset").as_ullong();
       if (offset >= appended_.size())
-        throw std::runtime_error(fmt::format("offset {} lies behind the end of the file; is it truncated?", offset));
+        throw std::runtime_error(fmt::format("offset {} is beyond the end of the file; is it truncated?", offset));
       bytes = vtu_bytes(appended_.substr(static_cast<std::size_t>(offset)), encoding, admit_bytes);
     } else if (format == "binary") {
       encoding.base64 = true;
@@ -182,25 +170,27 @@ class VtuReader {
 
   pugi::xml_node child(const pugi::xml_node& parent, const char* name) const {
     const pugi::xml_node found = parent.child(name);
-    if (!found) fail(parent, fmt::format("<{}> has no <{}>", parent.name(), name));
+    if (!found) fail(parent, "<{}> has no <{}>", parent.name(), name);
     return found;
   }
 
   pugi::xml_node named(const pugi::xml_node& parent, const char* name) const {
     const pugi::xml_node found = parent.find_child_by_attribute("DataArray", "Name", name);
-    if (!found) fail(parent, fmt::format("<{}> has no array \"{}\"", parent.name(), name));
+    if (!found) fail(parent, "<{}> has no array \"{}\"", parent.name(), name);
     return found;
   }
 
-  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const {
-    fail_at(node.offset_debug(), message);
+  template <class... Args>
+  [[noreturn]] void fail(const pugi::xml_node& node, fmt::format_string<Args...> message, Args&&... args) const {
+    fail_at(node.offset_debug(), message, std::forward<Args>(args)...);
   }
-  [[noreturn]] void fail_at(std::ptrdiff_t offset, const std::string& message) const {
-    fail_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), message);
-  }
-  [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
-    const std::string_view before = text_.substr(0, std::min(offset, text_.size()));
-    throw ConfigError(fmt::format("{}:{}", path_, 1 + std::count(before.begin(), before.end(), '\n')), message);
+  // Throws a ConfigError at a byte offset of the file; -1 for unknown.
+  template <class... Args>
+  [[noreturn]] void fail_at(std::ptrdiff_t offset, fmt::format_string<Args...> message, Args&&... args) const {
+    const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+    const std::string_view before = text_.substr(0, std::min(end, text_.size()));
+    throw ConfigError(fmt::format("{}:{}", path_, 1 + std::count(before.begin(), before.end(), '\n')),
+                      fmt::format(message, std::forward<Args>(args)...));
   }
 
   std::string path_;
@@ -209,7 +199,7 @@ class VtuReader {
   pugi::xml_document document_;
   VtuEncoding encoding_;
   bool appended_base64_ = false;
-  std::uint64_t budget_;  // bytes that packed arrays may still fill
+  std::uint64_t budget_;  // unpacked bytes still allowed
 };
 
 VtuArray membership(const std::string& name, const std::vector<int>& nodes, std::size_t num_nodes) {
@@ -240,9 +230,8 @@ WrittenMesh write_vtu(const LoadedMesh& loaded) {
                .cell_type = mesh.order() == 1 ? kVtkTetra : kVtkQuadraticTetra,
                .points_per_cell = static_cast<std::size_t>(cells.nodes_per_cell()),
                .connectivity = cells.nodes()};
-  for (const auto& [name, nodes] : mesh.node_sets) {
+  for (const auto& [name, nodes] : mesh.node_sets)
     grid.point_data.push_back(membership(name, nodes, mesh.nodes.size()));
-  }
   grid.cell_data.push_back(
       {.name = "region", .type = VtuNumber::int32, .values = {mesh.region_of.begin(), mesh.region_of.end()}});
   for (const CellData& data : loaded.cell_data) {

@@ -1,8 +1,7 @@
-// Meshes of solid cells in VTK's XML files of unstructured grids (.vtu). Read: ASCII, base64, and appended data (raw
-// or base64), uncompressed or by zlib, either byte order. Written: ASCII, exact to the last digit and readable by
-// every version.
+// Reads and writes VTK XML files of unstructured grids (.vtu). Reads ASCII, base64, and appended data (raw or base64),
+// uncompressed or zlib, in either byte order. Writes ASCII, exact to the last digit and readable by every version.
 //
-// Format: Kitware, VTK file formats, "XML file formats". The frames of a run are such files.
+// Format: Kitware, VTK file formats, "XML file formats". Frames of a run have this format, too.
 #pragma once
 
 #include <string>
@@ -12,17 +11,16 @@
 
 namespace orthodyn {
 
-// What becomes of cells and arrays: see build_vtk_mesh(). The field data array "region_names" (strings,
-// or codes of characters, each name ended by a zero) names the regions by their number. Throws ConfigError
-// "file:line: array, found, remedy". Memory use is bounded by the size of the file, whatever counts it
-// announces: the numbers of all packed arrays together, 8 bytes each, must not exceed 1000 times that size
-// and 1 MB.
+// build_vtk_mesh() describes the result. The field data array "region_names" (strings, or character codes with a zero
+// after each name) names the regions by number. Throws ConfigError "file:line: array, found, remedy". Memory use is
+// bounded by the file size, whatever counts the file announces: the numbers of all encoded arrays together, at 8 bytes
+// each, may take at most 1000 times the file size plus 1 MB.
 LoadedMesh read_vtu(const std::string& path);
 
-// The same from a text; `path` is for messages.
+// Reads from a text; `path` is for messages.
 LoadedMesh read_vtu_text(const std::string& path, std::string_view text);
 
-// Regions as the cell data "region" with their names, node sets as point data "nodes:NAME", all other cell data.
+// Writes regions as the cell data "region" with their names, node sets as point data "nodes:NAME", and all cell data.
 WrittenMesh write_vtu(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

@@ -12,8 +12,8 @@
 namespace orthodyn {
 namespace {
 
-// Deflate reaches 1032:1 at most.
-constexpr std::uint64_t kMostZlibRatio = 1100;
+// Deflate reaches at most 1032:1.
+constexpr std::uint64_t kMaxZlibRatio = 1100;
 
 int base64_value(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -24,17 +24,16 @@ int base64_value(char c) {
 
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
-// Takes bytes one after the other. Writers encode lengths and data as one base64 text or as two, so
-// padding may stand in the middle.
+// Sequential reader of bytes. Writers encode lengths and data as one base64 text or as two, so that padding may occur
+// in the middle.
 class ByteSource {
  public:
   ByteSource(std::string_view text, bool base64) : text_(text), base64_(base64) {}
 
-  // Refuses what cannot be there: base64 is longer than its bytes, too.
+  // Throws if the text is too short for `count` bytes; base64 text is longer than its bytes.
   void expect(std::uint64_t count) const {
-    if (count > text_.size() + buffer_.size()) {
+    if (count > text_.size() + buffer_.size())
       throw std::runtime_error(fmt::format("{} bytes announced, but the file ends before; is it truncated?", count));
-    }
   }
 
   std::string take(std::uint64_t count) {
@@ -76,7 +75,7 @@ class ByteSource {
 
   std::string_view text_;
   bool base64_;
-  std::string buffer_;  // decoded with what was taken, but behind it
+  std::string buffer_;  // decoded, not taken yet
 };
 
 std::uint64_t take_length(ByteSource& source, const VtuEncoding& encoding) {
@@ -93,12 +92,11 @@ std::uint64_t take_length(ByteSource& source, const VtuEncoding& encoding) {
 }
 
 void append_inflated(const std::string& compressed, std::uint64_t size, std::string& out) {
-  if (size > kMostZlibRatio * compressed.size() + 64) {
+  if (size > kMaxZlibRatio * compressed.size() + 64)
     throw std::runtime_error(
-        fmt::format("a block of {} bytes cannot come out of {} compressed ones", size, compressed.size()));
-  }
+        fmt::format("{} compressed bytes cannot unpack to a block of {} bytes", compressed.size(), size));
   const std::size_t begin = out.size();
-  out.resize(begin + static_cast<std::size_t>(size) + 1);  // never empty
+  out.resize(begin + static_cast<std::size_t>(size) + 1);  // one more byte, so that the buffer is never empty
   uLongf length = static_cast<uLongf>(size) + 1;
   const int status =
       uncompress(reinterpret_cast<Bytef*>(out.data() + begin), &length,
@@ -107,7 +105,7 @@ void append_inflated(const std::string& compressed, std::uint64_t size, std::str
   out.resize(begin + static_cast<std::size_t>(size));
 }
 
-// At most 2^64 - 1.
+// Total size of all blocks, saturating at 2^64 - 1.
 std::uint64_t sum_of_blocks(std::uint64_t blocks, std::uint64_t size, std::uint64_t last) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
   if (blocks == 0) return 0;
@@ -116,29 +114,27 @@ std::uint64_t sum_of_blocks(std::uint64_t blocks, std::uint64_t size, std::uint6
   return end > kMost - before ? kMost : before + end;
 }
 
-// Number of blocks, size of each, size of the last if it is smaller, compressed sizes; then the blocks.
+// Layout: number of blocks, block size, size of the last block if smaller, compressed sizes, blocks.
 std::string take_compressed(ByteSource& source, const VtuEncoding& encoding, const AdmitBytes& admit) {
   const std::uint64_t blocks = take_length(source, encoding);
   const std::uint64_t size = take_length(source, encoding);
   const std::uint64_t last = take_length(source, encoding);
-  source.expect(blocks);  // each has a length
+  source.expect(blocks);  // each has a length field
   admit(sum_of_blocks(blocks, size, last));
   std::vector<std::uint64_t> compressed;
   for (std::uint64_t b = 0; b < blocks; ++b) compressed.push_back(take_length(source, encoding));
   std::string out;
-  for (std::uint64_t b = 0; b < blocks; ++b) {
+  for (std::uint64_t b = 0; b < blocks; ++b)
     append_inflated(source.take(compressed[b]), b + 1 == blocks && last != 0 ? last : size, out);
-  }
   return out;
 }
 
 }  // namespace
 
 void swap_bytes(std::string& bytes, std::size_t width) {
-  for (std::size_t i = 0; i + width <= bytes.size(); i += width) {
+  for (std::size_t i = 0; i + width <= bytes.size(); i += width)
     std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
                  bytes.begin() + static_cast<std::ptrdiff_t>(i + width));
-  }
 }
 
 std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding, const AdmitBytes& admit) {

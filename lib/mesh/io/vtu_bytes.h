@@ -1,4 +1,4 @@
-// The bytes of one array of a .vtu file, out of raw or base64 text, uncompressed or by zlib.
+// Decodes the bytes of an array of a .vtu file: raw or base64, uncompressed or zlib.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,16 @@ namespace orthodyn {
 struct VtuEncoding {
   bool base64 = false;
   bool zlib = false;
-  bool swap = false;             // numbers have the other byte order than this machine
-  std::size_t header_width = 4;  // bytes of each length: 4 or 8
+  bool swap = false;             // the byte order differs from that of this machine
+  std::size_t header_width = 4;  // bytes per length field: 4 or 8
 };
 
-// Is told how many bytes will come, and throws std::runtime_error if these are too many or too few.
+// Called with the size of an array (bytes) before the array is unpacked. Throws std::runtime_error if the size is not
+// allowed.
 using AdmitBytes = std::function<void(std::uint64_t bytes)>;
 
-// What stands at the start of `text`: a length and its bytes, or the table of compressed blocks
-// and these. Nothing is unpacked before it is admitted. Throws std::runtime_error with what is wrong.
+// Decodes the start of `text`: a length and its bytes, or a table of compressed blocks and the blocks. Throws
+// std::runtime_error with the cause.
 std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding, const AdmitBytes& admit);
 
 // Reverses the bytes of each number of this width.

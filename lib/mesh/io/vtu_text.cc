@@ -27,7 +27,7 @@ std::string escaped(const std::string& name) {
 
 constexpr std::array<const char*, 4> kTypeNames{"UInt8", "Int32", "Float32", "Float64"};  // in the order of VtuNumber
 
-// The bytes of the values as numbers of type T, with their count in front.
+// The number of bytes, then the values as numbers of type T.
 template <class T>
 std::string block_of(const std::vector<double>& values) {
   const std::uint64_t bytes = values.size() * sizeof(T);
@@ -52,7 +52,7 @@ std::string block_of(const VtuArray& data) {
   return block_of<double>(data.values);
 }
 
-// The XML, and the blocks of bytes that it points into.
+// The XML text and the blocks of appended bytes that it refers to.
 class VtuFile {
  public:
   explicit VtuFile(VtuStorage storage) : ascii_(storage == VtuStorage::ascii) {
@@ -97,12 +97,11 @@ class VtuFile {
   std::size_t offset_ = 0;
 };
 
-// As codes of characters, each name ended by a zero: not every reader takes arrays of strings.
+// Character codes with a zero after each name: not every reader supports string arrays.
 void add_region_names(VtuFile& file, const std::vector<std::string>& names) {
   if (names.empty()) return;
   file.text(
-      fmt::format("<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" "
-                  "format=\"ascii\">\n",
+      fmt::format("<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
                   names.size()));
   for (const std::string& name : names) {
     for (const char c : name) file.text(std::to_string(static_cast<unsigned char>(c)) + " ");

@@ -1,5 +1,5 @@
-// An unstructured grid with fields as the text of a VTK XML file (.vtu): converted meshes, frames of a run, axes,
-// mode shapes.
+// Writes an unstructured grid with fields as a VTK XML file (.vtu): converted meshes, frames of a run, axes, mode
+// shapes.
 //
 // Format: Kitware, VTK file formats, "XML file formats".
 #pragma once
@@ -15,7 +15,7 @@ namespace orthodyn {
 
 enum class VtuNumber { uint8, int32, float32, float64 };
 
-// Values of all points or all cells, in the file as numbers of this type: values[components * k + component].
+// Values of all points or cells: values[components * k + component]. `type` is that of the numbers in the file.
 struct VtuArray {
   std::string name;
   int components = 1;
@@ -23,22 +23,22 @@ struct VtuArray {
   std::vector<double> values = {};
 };
 
-// All cells have one shape.
+// A grid whose cells all have the same type.
 struct VtuGrid {
   std::span<const Vec3> points;  // m
   int cell_type;                 // vtkCellType.h
   std::size_t points_per_cell;
-  std::vector<int> connectivity;  // indices of points, cell after cell
+  std::vector<int> connectivity;  // point indices, cell by cell
   std::vector<VtuArray> point_data = {}, cell_data = {};
-  std::vector<std::string> region_names = {};  // field data "region_names", by number; none if empty
+  std::vector<std::string> region_names = {};  // field data "region_names", by number; may be empty
 };
 
 enum class VtuStorage {
   ascii,  // exact to the last digit and readable by every version
-  raw,    // appended bytes in the order of this machine
+  raw,    // appended bytes in the byte order of this machine
 };
 
-// The file as parts that follow each other, for write_file().
+// The file as consecutive parts, for write_file().
 std::vector<std::string> vtu_text(const VtuGrid& grid, VtuStorage storage);
 
 }  // namespace orthodyn

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "lib/mesh/mesh_source.h"
-#include "lib/mesh/sources/element_order.h"
-#include "lib/mesh/sources/number_of_elements.h"
+#include "lib/mesh/selection.h"
+#include "lib/mesh/sources/source_keys.h"
 
 namespace orthodyn {
 
@@ -19,33 +19,15 @@ struct EnumNames<BoxMesh::Split> {
 
 namespace {
 
-// A part of a box: the elements whose centroid lies in it.
-struct BoxRegion {
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
-  SourceLocation origin;
-  static const Spec<BoxRegion>& spec() {
-    static const auto s = Spec<BoxRegion>()
-                              .key("min", &BoxRegion::min, "Lowest coordinates.", {.required = true, .unit = "m"})
-                              .key("max", &BoxRegion::max, "Highest coordinates.", {.required = true, .unit = "m"});
-    return s;
-  }
-  bool contains(const Vec3& x) const { return (x.array() >= min.array()).all() && (x.array() <= max.array()).all(); }
-};
-
-Vec3 centroid(const TetMesh& mesh, std::size_t element) {
-  Vec3 sum = Vec3::Zero();
-  for (const int node : mesh.tets[element]) sum += mesh.nodes[static_cast<std::size_t>(node)];
-  return sum / 4;
-}
-
-// Later parts win where they overlap.
-void assign(TetMesh& mesh, const std::string& name, const BoxRegion& part) {
-  if (name == mesh.region_names.front()) part.origin.fail("'" + name + "' is the name of the rest; choose another");
+// Makes a region of the elements with their centroid in `part`; takes them from earlier parts.
+void add_region(TetMesh& mesh, const std::string& name, const BoxSelection& part) {
+  if (name == mesh.region_names.front())
+    part.origin.fail("'" + name + "' is the region of the remaining elements; choose another name");
   const int region = static_cast<int>(mesh.region_names.size());
   mesh.region_names.push_back(name);
   bool any = false;
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    if (!part.contains(centroid(mesh, e))) continue;
+    if (!part.contains(centroid(mesh, static_cast<int>(e)))) continue;
     mesh.region_of[e] = region;
     any = true;
   }
@@ -60,18 +42,17 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
-            .key(
-                "split", &BoxSource::split_,
-                "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike). Default: six for "
-                "quadratic tetrahedra in cells that are more than three times wider than thick, where five are far too "
-                "stiff; else five.")
+            .key("split", &BoxSource::split_,
+                 "Tets per cell: five (mirror symmetric for even cell counts) or six (all cells alike). Default: six "
+                 "for quadratic tetrahedra in cells more than three times wider than thick, where five are far too "
+                 "stiff; otherwise five.")
             .key("order", &BoxSource::order, kOrderSentence, kOrderRule)
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
               if (!box.split_) config.fill("split", Value<Split>::yaml(box.chosen_split()));
               const double tets_per_cell = box.chosen_split() == BoxMesh::Split::five ? 5 : 6;
-              require_room(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
+              check_mesh_size(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
             });
     return s;
   }
@@ -79,7 +60,7 @@ class BoxSource : public MeshSource, public BoxMesh {
     BoxMesh box = *this;
     box.split = chosen_split();
     TetMesh mesh = make_box(box);
-    for (const auto& [name, part] : parts_) assign(mesh, name, part);
+    for (const auto& [name, part] : parts_) add_region(mesh, name, part);
     set_order(mesh, order);
     return {std::move(mesh), {}};
   }
@@ -97,7 +78,7 @@ class BoxSource : public MeshSource, public BoxMesh {
 
   static constexpr double kFlat = 3;
   std::optional<Split> split_;
-  Named<BoxRegion> parts_;
+  Named<BoxSelection> parts_;
 };
 
 const bool box_registered = Registry<MeshSource>::add<BoxSource>(

@@ -2,19 +2,17 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "lib/core/file_kind.h"
-#include "lib/mesh/file_units.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/mesh/refine.h"
-#include "lib/mesh/sources/element_order.h"
+#include "lib/mesh/sources/source_keys.h"
 
 namespace orthodyn {
 
@@ -26,27 +24,27 @@ struct EnumNames<FileUnits> {
 
 namespace {
 
-constexpr const char* kRefineSentence = "How often each tetrahedron is divided into eight.";
+constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every tetrahedron into eight.";
 const Rule kRefineRule{.range = {0, 6}};
-constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.";
+constexpr const char* kScale = "Factor of all coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
 }
 
-// What is made of the mesh of any file.
+// Options of all mesh files.
 struct FileOptions {
   FilePath file;
   double scale = 1;
   std::optional<int> order;
   int refinements = 0;
 
-  LoadedMesh as_wanted(LoadedMesh loaded) const {
+  LoadedMesh apply_options(LoadedMesh loaded) const {
     scale_mesh(loaded.mesh, scale, file.path);
     for (const std::string& name : set_order(loaded.mesh, order))
       loaded.warnings.push_back(
-          fmt::format("{}: node set \"{}\" holds nodes within edges only and is empty with `order: "
-                      "1`; leave out `order`, or put corners into the set",
+          fmt::format("{}: node set \"{}\" has mid-edge nodes only and is empty with `order: 1`; leave out `order`, or "
+                      "add corners to the set",
                       file.path, name));
     for (int i = 0; i < refinements; ++i) refine(loaded);
     return loaded;
@@ -60,16 +58,15 @@ class FileSource : public MeshSource, public FileOptions {
         Spec<FileSource>()
             .key("file", &FileSource::file, "A mesh file; relative to the scene.", {.required = true})
             .key("scale", &FileSource::scale, kScale, {.range = kPositive})
-            .key(
-                "units", &FileSource::units_,
-                "Of the file's coordinates, and of its materials where the scene has no `materials`: SI, or mm_t_s for "
-                "mm, t and s, with which moduli are in MPa and densities in t/mm^3.")
+            .key("units", &FileSource::units_,
+                 "Units of the coordinates, and of the materials of the file if the scene has no `materials`: SI, or "
+                 "mm_t_s (mm, t, s; moduli in MPa, densities in t/mm^3).")
             .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
             .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule)
             .check([](const FileSource& source, const Config& config) {
               if (source.units_ != FileUnits::si && source.scale != 1)
                 config.at("scale").fail(
-                    "has no meaning beside `units: mm_t_s`, which makes m of mm; remove one of them");
+                    "cannot be combined with `units: mm_t_s`, which converts mm to m; remove one of them");
             });
     return s;
   }
@@ -77,7 +74,7 @@ class FileSource : public MeshSource, public FileOptions {
     require_file(file);
     LoadedMesh loaded = read_mesh(file.path);
     convert_to_si(loaded, units_, file.path);
-    return as_wanted(std::move(loaded));
+    return apply_options(std::move(loaded));
   }
   bool may_bring_materials() const override { return mesh_format_of(file.path).brings_materials; }
 
@@ -100,7 +97,7 @@ class GmshSource : public MeshSource, public FileOptions {
     require_file(file);
     LoadedMesh loaded = read_gmsh(file.path);
     make_names_utf8(loaded, file.path);
-    return as_wanted(std::move(loaded));
+    return apply_options(std::move(loaded));
   }
 };
 
@@ -122,7 +119,7 @@ class VegaSource : public MeshSource, public FileOptions {
     if (fixed_) require_file(*fixed_);
     LoadedMesh loaded = fixed_ ? read_vega(file.path, {fixed_->path}) : read_vega(file.path);
     make_names_utf8(loaded, file.path);
-    return as_wanted(std::move(loaded));
+    return apply_options(std::move(loaded));
   }
   bool may_bring_materials() const override { return true; }
 
@@ -133,14 +130,12 @@ class VegaSource : public MeshSource, public FileOptions {
 const bool file_registered[] = {
     Registry<MeshSource>::add<FileSource>(
         "file",
-        "A mesh file of any known format, chosen by its ending. Of .veg and .inp a scene "
-        "may leave out `materials`."),
-    Registry<MeshSource>::add<GmshSource>(
-        "gmsh",
-        "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical curves and points "
-        "node sets."),
+        "A mesh file of any known format, by its ending. With .veg and .inp a scene may leave out `materials`."),
+    Registry<MeshSource>::add<GmshSource>("gmsh",
+                                          "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, "
+                                          "physical curves and points node sets."),
     Registry<MeshSource>::add<VegaSource>(
-        "vega", "A Vega file. Its regions bring their materials and axes: a scene may leave out `materials`."),
+        "vega", "A Vega file, with materials and axes of its regions: a scene may leave out `materials`."),
 };
 
 }  // namespace

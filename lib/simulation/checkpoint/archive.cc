@@ -10,7 +10,7 @@ namespace orthodyn {
 
 namespace {
 
-// Counts are kept as doubles, which hold whole numbers up to here.
+// Counts are stored as doubles, which represent integers exactly up to 2^53.
 constexpr double kLargestCount = 9007199254740992;
 
 }  // namespace
@@ -18,7 +18,7 @@ constexpr double kLargestCount = 9007199254740992;
 std::size_t Archive::count(const std::string& name) const {
   const double value = number(name);
   if (!(value >= 0 && value <= kLargestCount) || value != std::floor(value))
-    throw ConfigError(fmt::format("checkpoint: '{}' is {}, which is no count", name, value));
+    throw ConfigError(fmt::format("checkpoint: '{}' is {}, which is not a count", name, value));
   return static_cast<std::size_t>(value);
 }
 

@@ -1,4 +1,4 @@
-// Numbers by name: what an observer keeps in a checkpoint.
+// The state that an observer saves in a checkpoint: lists of numbers by name.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ class Archive {
   void put(const std::string& name, std::vector<double> values) { values_[name] = std::move(values); }
   void put_count(const std::string& name, std::size_t value) { put(name, static_cast<double>(value)); }
 
-  // Throw ConfigError if there is no such entry, or one of another length.
+  // Throw ConfigError if the entry is missing, has another length or, for count(), is not a non-negative integer.
   double number(const std::string& name) const { return numbers(name, 1)[0]; }
   std::size_t count(const std::string& name) const;
   const std::vector<double>& numbers(const std::string& name, std::size_t length) const;

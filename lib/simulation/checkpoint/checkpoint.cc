@@ -10,7 +10,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/fingerprint.h"
 #include "lib/core/versions.h"
-#include "lib/simulation/output/files.h"
+#include "lib/core/write_file.h"
 
 namespace orthodyn {
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kVersion = 6;
 constexpr const char* kCheckpointMark = "orthodyn checkpoint ";
-constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // CBOR's own, mark, version, space, fingerprint
+constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // bytes: CBOR header, mark, version, space, fingerprint
 
 std::string cbor(const SortedJson& json) {
   std::string bytes;
@@ -61,7 +61,7 @@ std::vector<Restart> restarts_from(const SortedJson& json) {
 
 SortedJson to_json(const Checkpoint& c) {
   SortedJson observers = SortedJson::object();
-  for (const auto& [name, kept] : c.observers) observers[name] = kept.entries();
+  for (const auto& [name, saved] : c.observers) observers[name] = saved.entries();
   return {{"program", orthodyn_version()},
           {"scene", c.scene},
           {"mesh", c.mesh},
@@ -73,7 +73,7 @@ SortedJson to_json(const Checkpoint& c) {
           {"last_output", c.last_output},
           {"last_history", c.last_history},
           {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
-          {"effort", c.effort.archive().entries()},
+          {"effort", c.cost.archive().entries()},
           {"restarts", restarts_json(c.restarts)},
           {"observers", observers}};
 }
@@ -89,16 +89,16 @@ Checkpoint from_json(const SortedJson& json) {
   c.last_history = json.at("last_history");
   const auto& rhythm = json.at("rhythm");
   c.schedule = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
-  c.effort = Effort::from(archive(json.at("effort")));
+  c.cost = TotalCost::from(archive(json.at("effort")));
   c.restarts = restarts_from(json.at("restarts"));
-  for (const auto& [name, kept] : json.at("observers").items()) c.observers[name] = archive(kept);
+  for (const auto& [name, saved] : json.at("observers").items()) c.observers[name] = archive(saved);
   return c;
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message) {
   throw ConfigError(
       path.string(),
-      fmt::format("{}; the run cannot go on from it: start it anew with --force in place of --resume", message));
+      fmt::format("{}; the run cannot resume from it: start anew with --force instead of --resume", message));
 }
 
 std::string content_of(const fs::path& path) {
@@ -109,7 +109,7 @@ std::string content_of(const fs::path& path) {
   return text.str();
 }
 
-// Of a head that is whole; -1 if it is none of ours.
+// The version in the head of a file; -1 if the file is not a checkpoint.
 int version_of(const std::string& file) {
   int version = -1;
   const std::string expected = head("");
@@ -123,19 +123,19 @@ int version_of(const std::string& file) {
 
 void Checkpoint::save(const fs::path& path) const {
   const std::string content = cbor(to_json(*this));
-  write_lasting_file(path, {head(content), content});
+  write_durable_file(path, {head(content), content});
 }
 
 Checkpoint Checkpoint::load(const fs::path& path) {
   const std::string file = content_of(path);
-  if (file.size() < kHeadSize) refuse(path, "is cut short");
+  if (file.size() < kHeadSize) refuse(path, "is truncated");
   const int version = version_of(file);
-  if (version < 0) refuse(path, "is no checkpoint of orthodyn");
+  if (version < 0) refuse(path, "is not a checkpoint of orthodyn");
   if (version != kVersion)
-    refuse(path, fmt::format("has version {} of the format, orthodyn {} reads version {}", version, orthodyn_version(),
-                             kVersion));
+    refuse(path,
+           fmt::format("has format version {}; orthodyn {} reads version {}", version, orthodyn_version(), kVersion));
   const std::string content = file.substr(kHeadSize);
-  if (file.compare(0, kHeadSize, head(content)) != 0) refuse(path, "is damaged or cut short");
+  if (file.compare(0, kHeadSize, head(content)) != 0) refuse(path, "is damaged or truncated");
   try {
     return from_json(SortedJson::from_cbor(content));
   } catch (const SortedJson::exception& e) {

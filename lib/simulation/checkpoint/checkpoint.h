@@ -1,8 +1,7 @@
-// Everything that a run needs to go on in another process, as one file.
+// A file with the state of a run, from which another process can resume the run.
 //
-// The file is a CBOR sequence (RFC 8742): the text "orthodyn checkpoint <version> <fingerprint>", then
-// a map. Numbers come back bit by bit. The fingerprint is that of the map's bytes: a damaged file is
-// refused.
+// The file is a CBOR sequence (RFC 8742): the text "orthodyn checkpoint <version> <fingerprint>", then a map. Numbers
+// are stored exactly. The fingerprint is computed from the map's bytes, so that a damaged file is rejected.
 #pragma once
 
 #include <filesystem>
@@ -12,39 +11,39 @@
 
 #include "lib/ode/output.h"
 #include "lib/simulation/checkpoint/archive.h"
-#include "lib/simulation/checkpoint/effort.h"
+#include "lib/simulation/checkpoint/total_cost.h"
 
 namespace orthodyn {
 
-// That a run was taken up again.
+// Records that a run was resumed.
 struct Restart {
-  double time = 0;                   // s, where
+  double time = 0;                   // s
   std::string at;                    // date and time
-  std::string after;                 // how it had ended: "killed", "failed", ...
-  std::vector<std::string> changed;  // keys of the scene with another value from there on
+  std::string after;                 // how the run had ended before: "killed", "failed", ...
+  std::vector<std::string> changed;  // keys of the scene whose values changed on resuming
 };
 
-// The output times of the first plan: a run that is extended keeps their interval.
+// Output times of the first run. If the run is extended, the interval stays the same.
 struct OutputSchedule {
-  double start = 0, end = 0;  // s, of the first plan
+  double start = 0, end = 0;  // s
   double interval = 0;        // s; 0: no outputs
 };
 
 struct Checkpoint {
   std::string scene;                         // resolved, as YAML
-  std::string mesh;                          // its fingerprint
-  std::map<std::string, std::string> files;  // fingerprints of those that the scene names, by their paths in it
-  bool begun = false;                        // false: nothing has been computed or written yet
+  std::string mesh;                          // fingerprint
+  std::map<std::string, std::string> files;  // fingerprints of the files named in the scene, by path
+  bool begun = false;                        // false: nothing has been computed or written
   State state;                               // at the end of a step
-  double last_output = 0, last_history = 0;  // s
+  double last_output = 0, last_history = 0;  // times of the last output and history row, s
   OutputSchedule schedule;
-  Effort effort;
+  TotalCost cost;
   std::vector<Restart> restarts;
   std::map<std::string, Archive> observers;
 
-  // Whole or absent, and on the disk when it returns. Throws RunError.
+  // Writes the file atomically and syncs it to the disk. Throws RunError.
   void save(const std::filesystem::path& path) const;
-  // Throws ConfigError for a file that is missing, cut short, damaged or of another version.
+  // Throws ConfigError for a file that is missing, truncated, damaged or of another version.
   static Checkpoint load(const std::filesystem::path& path);
 };
 

@@ -8,10 +8,10 @@ namespace orthodyn {
 
 namespace {
 
-// By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at
-// most.
+// Least ratio of the time between checkpoints to the time to write one, so that writing takes at most a tenth of the
+// run.
 constexpr double kRest = 10;
-constexpr double kBetweenRemembered = 1;  // s
+constexpr double kBetweenRemembered = 1;  // least time between states kept in memory, s
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -23,7 +23,7 @@ Checkpointer::Checkpointer(std::filesystem::path path, Checkpoint begin, Checkpo
                            const FemModel& model, const Integrator& integrator)
     : path_(std::move(path)),
       checkpoint_(std::move(begin)),
-      before_(checkpoint_.effort),
+      before_(checkpoint_.cost),
       times_(times),
       others_(std::move(others)),
       model_(model),
@@ -53,47 +53,47 @@ void Checkpointer::on_output(const ObservedState& observed) {
 void Checkpointer::on_history(const ObservedState& observed) { checkpoint_.last_history = observed.t(); }
 
 void Checkpointer::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
-  if (times_.never) return remember_now_and_then(observed.state());
+  if (times_.never) return remember_periodically(observed.state());
   const double since = seconds_between(written_, Clock::now());
   const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
-  const bool is_due = enough_outputs || since >= std::max(times_.every, kRest * last_took_);
+  const bool is_due = enough_outputs || since >= std::max(times_.every, kRest * write_seconds_);
   if (for_all_ranks(is_due)) write(observed.state());
 }
 
-// Clocks differ.
+// The first rank decides, because the clocks of ranks differ.
 bool Checkpointer::for_all_ranks(bool decision) const {
-  return model_.ranks() ? model_.ranks()->as_first_says(decision) : decision;
+  return model_.ranks() ? model_.ranks()->broadcast_flag(decision) : decision;
 }
 
-void Checkpointer::take(const State& state) {
+void Checkpointer::capture(const State& state) {
   checkpoint_.state = model_.whole(state);
-  checkpoint_.effort = effort();
+  checkpoint_.cost = cost();
   for (const auto& [name, observer] : others_) {
-    Archive kept;
-    observer->save(kept);
-    checkpoint_.observers[name] = std::move(kept);
+    Archive archive;
+    observer->save(archive);
+    checkpoint_.observers[name] = std::move(archive);
   }
 }
 
 void Checkpointer::write(const State& state) {
   const auto begin = Clock::now();
-  take(state);
+  capture(state);
   checkpoint_.save(path_);
   outputs_ = 0;
   written_ = Clock::now();
-  last_took_ = seconds_between(begin, written_);
+  write_seconds_ = seconds_between(begin, written_);
 }
 
-// Observers make their files lasting when they are asked for what they keep, which takes a slow disk some time.
-void Checkpointer::remember_now_and_then(const State& state) {
+// The interval is longer on a slow disk, because capture() syncs the files of the observers.
+void Checkpointer::remember_periodically(const State& state) {
   const auto begin = Clock::now();
   const bool is_recent =
-      remembered_ && seconds_between(written_, begin) < std::max(kBetweenRemembered, kRest * last_took_);
+      remembered_ && seconds_between(written_, begin) < std::max(kBetweenRemembered, kRest * write_seconds_);
   if (for_all_ranks(is_recent)) return;
-  take(state);
+  capture(state);
   remembered_ = checkpoint_;
   written_ = Clock::now();
-  last_took_ = seconds_between(begin, written_);
+  write_seconds_ = seconds_between(begin, written_);
 }
 
 bool Checkpointer::write_remembered() {
@@ -101,9 +101,9 @@ bool Checkpointer::write_remembered() {
   return remembered_.has_value();
 }
 
-Effort Checkpointer::effort() const {
+TotalCost Checkpointer::cost() const {
   return before_ +
-         Effort{integrator_.statistics(), seconds_between(begin_, Clock::now()), cpu_seconds_now() - begin_cpu_};
+         TotalCost{integrator_.statistics(), seconds_between(begin_, Clock::now()), cpu_seconds_now() - begin_cpu_};
 }
 
 }  // namespace orthodyn

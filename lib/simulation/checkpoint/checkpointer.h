@@ -1,5 +1,5 @@
-// Writes a checkpoint at the start, every so often (where writing is slow, less often: that it takes no
-// more than about a tenth of the time), and when it is told to.
+// Writes checkpoints at the start, at intervals and on request. On a slow disk the intervals become longer, so that
+// writing takes at most about a tenth of the run time.
 #pragma once
 
 #include <chrono>
@@ -15,20 +15,20 @@
 
 namespace orthodyn {
 
-// Observers by the name under which a checkpoint knows them.
+// Observers by their names in a checkpoint.
 using NamedObservers = std::vector<std::pair<std::string, Observer*>>;
 
 struct CheckpointTimes {
   double every = 60;   // s of wall time
-  int frames = 0;      // and after so many outputs; 0: not by outputs
-  bool never = false;  // only when told to
+  int frames = 0;      // also write after this many outputs; 0: outputs do not count
+  bool never = false;  // write on request only
 };
 
-// To be the last of the observers: what the others keep is then that of the same state.
+// Must be the last observer called, so that the states of all observers belong to the same time.
 class Checkpointer : public Observer {
  public:
-  // `begin` holds what does not change, and what earlier parts of the run have cost. The others, the model and the
-  // integrator must outlive it.
+  // `begin` holds the constant parts of the checkpoint and the cost of earlier runs. `others`, the model and the
+  // integrator must outlive the checkpointer.
   Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
                const FemModel& model, const Integrator& integrator);
 
@@ -38,33 +38,34 @@ class Checkpointer : public Observer {
   void on_history(const ObservedState& observed) override;
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
-  // Between steps only. Throws RunError.
+  // Writes a checkpoint with this state. Call between steps only. Throws RunError.
   void write(const State& state);
 
-  // Where there is no schedule: a state of a second ago or so, between steps, for a run that an observer has ended in
-  // the middle of one (a full disk). False if there is none. Throws RunError.
+  // For a run without scheduled checkpoints that an observer ended within a step, for example because the disk is full.
+  // Writes the last remembered state, which is usually about a second old. False if none is remembered. Throws
+  // RunError.
   bool write_remembered();
 
  private:
   using Clock = std::chrono::steady_clock;
-  Effort effort() const;
+  TotalCost cost() const;
   void start_clock();
-  void take(const State& state);
-  void remember_now_and_then(const State& state);
+  void capture(const State& state);
+  void remember_periodically(const State& state);
   bool for_all_ranks(bool decision) const;
 
   std::filesystem::path path_;
   Checkpoint checkpoint_;
   std::optional<Checkpoint> remembered_;
-  Effort before_;
+  TotalCost before_;
   CheckpointTimes times_;
   NamedObservers others_;
   const FemModel& model_;
   const Integrator& integrator_;
   Clock::time_point begin_, written_;
   double begin_cpu_ = 0;
-  double last_took_ = 0;  // s, to write
-  int outputs_ = 0;       // since the last one
+  double write_seconds_ = 0;  // time to write the last checkpoint, s
+  int outputs_ = 0;           // number of outputs since the last checkpoint
 };
 
 }  // namespace orthodyn

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "lib/simulation/checkpoint/scene_changes.h"
@@ -23,8 +22,8 @@ OutputSchedule schedule_of(const Scene& scene) {
                                 : 0};
 }
 
-// By paths from the result's folder, as in the scene that is kept there: the same for a run that is named
-// by its scene and by its folder.
+// Keys are paths relative to the result folder, as in the stored scene, so that naming a run by its scene or by its
+// folder gives the same keys.
 std::map<std::string, std::string> file_fingerprints(const Config& scene, const ResultFolder& folder) {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> out;
@@ -40,10 +39,10 @@ void require_same_files(const Checkpoint& checkpoint, const Setup& setup, const 
   for (const auto& [file, print] : file_fingerprints(setup.config, folder)) {
     const auto before = checkpoint.files.find(file);
     if (before != checkpoint.files.end() && before->second == print) continue;
-    throw ConfigError((folder.path() / file).lexically_normal().string(),
-                      fmt::format("is not the file that {} was computed with; put it back, or start anew with "
-                                  "--force in place of --resume",
-                                  folder.checkpoint().string()));
+    throw ConfigError(
+        (folder.path() / file).lexically_normal().string(),
+        fmt::format("has changed since {} was computed; put it back, or start anew with --force instead of --resume",
+                    folder.checkpoint().string()));
   }
 }
 
@@ -53,9 +52,9 @@ void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const 
   if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == unknowns &&
       checkpoint.state.v.size() == unknowns)
     return;
-  throw ConfigError(folder.checkpoint().string(),
-                    "the mesh is not the one that the checkpoint was computed with; put it back, or "
-                    "start anew with --force in place of --resume");
+  throw ConfigError(
+      folder.checkpoint().string(),
+      "the mesh has changed since the checkpoint; put it back, or start anew with --force instead of --resume");
 }
 
 void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
@@ -64,22 +63,18 @@ void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
       "{} s lies before the checkpoint at t = {:.6g} s; give a later end", setup.scene.time.end, checkpoint.state.t));
 }
 
-}  // namespace
-
-namespace {
-
-// Of the section `elasticity` or an entry of `regions`; empty where nothing is given.
+// The value of `kinematics` in the section `elasticity` or in an entry of `regions`; "" if absent.
 std::string kinematics_of(const Config& sections, const std::string& name) {
-  const bool given = sections.has(name) && sections.at(name).is_map() && sections.at(name).has("kinematics");
-  const Config section = given ? sections.at(name).at("kinematics") : sections;
-  return given && !section.is_null() ? section.text() : "";
+  const bool has_key = sections.has(name) && sections.at(name).is_map() && sections.at(name).has("kinematics");
+  const Config section = has_key ? sections.at(name).at("kinematics") : sections;
+  return has_key && !section.is_null() ? section.text() : "";
 }
 
 std::vector<std::string> regions_of(const Config& scene) {
   return scene.has("regions") && scene.at("regions").is_map() ? scene.at("regions").keys() : std::vector<std::string>{};
 }
 
-// What was found too large for linear kinematics stays corotational.
+// Keeps regions corotational that became so in the earlier run.
 void keep_kinematics(const Config& before, Config& scene) {
   const std::string corotational = "corotational", open = "auto";
   const bool is_open = kinematics_of(scene, "elasticity") == open;
@@ -95,7 +90,7 @@ void keep_kinematics(const Config& before, Config& scene) {
 
 }  // namespace
 
-bool was_linear_so_far(const Checkpoint& checkpoint) {
+bool was_linear(const Checkpoint& checkpoint) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   if (kinematics_of(before, "elasticity") == "auto") return true;
   const auto regions = regions_of(before);
@@ -104,17 +99,17 @@ bool was_linear_so_far(const Checkpoint& checkpoint) {
 }
 
 void keep_choices(const Checkpoint& checkpoint, Config& scene) {
-  if (!scene.is_map()) return;  // reading it will tell
+  if (!scene.is_map()) return;  // read_scene() reports the error
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   keep_kinematics(before, scene);
   if (!before.has("integrator")) return;
   if (!scene.has("integrator")) scene.set("integrator.type", before.at("integrator").at("type"));
-  const Config section = scene.at("integrator"), kept = before.at("integrator");
-  if (!section.is_map() || !section.has("type")) return;  // reading it will tell
+  const Config section = scene.at("integrator"), earlier = before.at("integrator");
+  if (!section.is_map() || !section.has("type")) return;  // read_scene() reports the error
   std::vector<std::string> choices{"position_scale", "velocity_scale"};
   if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety", "modes"});
   for (const auto& key : choices)
-    if (!section.has(key) && kept.has(key)) scene.set("integrator." + key, kept.at(key));
+    if (!section.has(key) && earlier.has(key)) scene.set("integrator." + key, earlier.at(key));
 }
 
 Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder) {
@@ -128,18 +123,16 @@ Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, con
   return checkpoint;
 }
 
-Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
-                     const ResultFolder& folder) {
+Checkpoint resumed_checkpoint(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
+                              const ResultFolder& folder) {
   const auto changed =
       changed_keys(with_defaults(Config::from_text(checkpoint.scene, "checkpoint.cbor")), Config::from_text(resolved));
   if (const auto refused = refused_changes(changed); !refused.empty())
-    throw ConfigError(
-        folder.checkpoint().string(),
-        fmt::format(
-            "is that of another simulation: {} differ{}. A run that goes on may change "
-            "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
-            "max_newton_iterations, and output.accumulated_error; for all else choose another folder with --out",
-            join(refused), refused.size() == 1 ? "s" : ""));
+    throw ConfigError(folder.checkpoint().string(),
+                      fmt::format("belongs to another simulation: {} differ{}. A resumed run may change time.end, "
+                                  "checkpoint, expect, output.accumulated_error and the integrator's limits max_steps, "
+                                  "h_min, max_newton_iterations; for other changes choose another folder with --out",
+                                  join(refused), refused.size() == 1 ? "s" : ""));
   require_same_files(checkpoint, setup, folder);
   require_same_model(checkpoint, setup, folder);
   require_time_left(checkpoint, setup);

@@ -1,4 +1,4 @@
-// Whether a checkpoint fits the scene that is to go on from it, and what the run then begins with.
+// Checks that a checkpoint matches the scene, and prepares the resumed run.
 #pragma once
 
 #include "lib/simulation/checkpoint/checkpoint.h"
@@ -8,25 +8,25 @@
 
 namespace orthodyn {
 
-// Scales that integrators estimate from the scene where it leaves them open, and corotational kinematics that were
-// taken for `auto`: a run that goes on must not change them.
+// Copies automatic choices of the earlier run into the scene: scales estimated by the integrator, the method of `auto`,
+// and regions that became corotational. A resumed run must not change them.
 void keep_choices(const Checkpoint& checkpoint, Config& scene);
 
-// Whether linear kinematics were taken for `auto`.
-bool was_linear_so_far(const Checkpoint& checkpoint);
+// True if `kinematics: auto` chose linear kinematics for some region of the earlier run.
+bool was_linear(const Checkpoint& checkpoint);
 
-// A checkpoint for a run that begins. Throws RunError if a file that the scene names is gone by now.
+// First checkpoint of a new run. Throws RunError if a file named in the scene has disappeared.
 Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder);
 
-// The same run, continued: with the scene as it is now and one restart more. Throws ConfigError, naming
-// what differs, if the checkpoint is that of another simulation.
-Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
-                     const ResultFolder& folder);
+// First checkpoint of a resumed run: `checkpoint` with the present scene and one more restart. Throws ConfigError if
+// `checkpoint` belongs to another simulation, naming the differences, or if the scene ends before it.
+Checkpoint resumed_checkpoint(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
+                              const ResultFolder& folder);
 
-// The end was reached before.
+// True if the end of the scene's time span has been reached.
 bool is_complete(const Checkpoint& checkpoint, const Scene& scene);
 
-// Output times at the interval with which the run began.
+// The plan of a run. `schedule`: output times of the first run, whose interval is kept.
 Plan plan_of(const Scene& scene, const OutputSchedule& schedule);
 
 }  // namespace orthodyn

@@ -10,19 +10,19 @@ namespace orthodyn {
 
 namespace {
 
-constexpr const char* kAllowed[] = {"time.end",
-                                    "checkpoint",
-                                    "expect",
-                                    "integrator.max_steps",
-                                    "integrator.h_min",
-                                    "integrator.max_newton_iterations",
-                                    "output.accumulated_error",
-                                    "threads"};
+constexpr const char* kAllowedChanges[] = {"time.end",
+                                           "checkpoint",
+                                           "expect",
+                                           "integrator.max_steps",
+                                           "integrator.h_min",
+                                           "integrator.max_newton_iterations",
+                                           "output.accumulated_error",
+                                           "threads"};
 
-// What the program says of its own choices, in words: figures in it may differ in their last digits.
-constexpr const char* kWords[] = {"integrator.kept", "integrator.because"};
+// Keys that explain automatic choices. They are not compared, because digits in their texts may differ.
+constexpr const char* kExplanations[] = {"integrator.kept", "integrator.because"};
 
-// The units of keys, one for each dimension.
+// One unit for each dimension.
 constexpr const char* kUnits[] = {"m", "s",  "Pa",  "kg/m^3", "m/s",   "m/s^2", "rad",  "rad/s",
                                   "N", "Hz", "1/s", "N/m",    "N s/m", "Pa/m",  "bytes"};
 
@@ -34,8 +34,7 @@ std::optional<double> number(const Config& value, const char* unit) {
   }
 }
 
-// "25 mm" and 0.025 are the same in the only unit that both can be read in; of two plain numbers the unit
-// does not matter.
+// Compares numbers in the first unit in which both can be read: "25 mm" equals 0.025.
 bool same_scalar(const Config& a, const Config& b) {
   if (a.text() == b.text()) return true;
   for (const char* unit : kUnits) {
@@ -50,7 +49,7 @@ bool is_given(const Config& section, const std::string& key) { return section.ha
 std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 
 void compare(const Config& before, const Config& now, const std::string& path, std::vector<std::string>& changed) {
-  if (std::find(std::begin(kWords), std::end(kWords), path) != std::end(kWords)) return;
+  if (std::find(std::begin(kExplanations), std::end(kExplanations), path) != std::end(kExplanations)) return;
   if (before.is_map() && now.is_map()) {
     auto keys = now.keys();
     for (const auto& key : before.keys())
@@ -87,7 +86,7 @@ std::vector<std::string> refused_changes(const std::vector<std::string>& changed
   std::vector<std::string> refused;
   for (const auto& path : changed) {
     const auto allows = [&](const std::string& key) { return path == key || path.starts_with(key + "."); };
-    if (std::none_of(std::begin(kAllowed), std::end(kAllowed), allows)) refused.push_back(path);
+    if (std::none_of(std::begin(kAllowedChanges), std::end(kAllowedChanges), allows)) refused.push_back(path);
   }
   return refused;
 }

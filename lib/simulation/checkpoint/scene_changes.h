@@ -1,4 +1,4 @@
-// What a scene may change when it goes on from a checkpoint, and what it did change.
+// Finds differences between the scene in a checkpoint and the scene of the resumed run.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace orthodyn {
 
-// A resolved scene, perhaps of an earlier version, with the defaults of keys that it does not have.
+// A resolved scene, possibly of an earlier version of orthodyn, with defaults for missing keys.
 Config with_defaults(const Config& scene);
 
-// Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without
-// a value counts as absent. What the program says of its choices in words (`integrator.kept`) is none.
+// Paths of values that differ, in the order of `now`. Numbers are compared with their units. A key without a value
+// counts as absent. Explanations by the program (`integrator.kept`, `integrator.because`) are ignored.
 std::vector<std::string> changed_keys(const Config& before, const Config& now);
 
-// Of `changed`, those that make it another simulation: all but the end of the time span, checkpoints,
-// expectations and limits of the integrator that do not touch its accuracy.
+// Changes that a resumed run must not make: all except those of time.end, checkpoint, expect, threads,
+// output.accumulated_error, and limits of the integrator that do not affect its accuracy.
 std::vector<std::string> refused_changes(const std::vector<std::string>& changed);
 
 }  // namespace orthodyn

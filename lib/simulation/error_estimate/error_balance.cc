@@ -9,15 +9,15 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kSmall = 5e-3;  // a mesh that is as good as this needs no word
-constexpr double kMuch = 3;      // one error against the other, to be called the larger one
+constexpr double kAccurateMesh = 5e-3;  // mesh error up to which no advice is given
+constexpr double kDominates = 3;        // ratio above which one error dominates
 constexpr double kLoosestRtol = 1e-2;
-constexpr double kMargin = 30;  // how much smaller than the mesh's error that of the integration may as well be
+constexpr double kMargin = 30;  // least ratio of mesh error to integration error for which a larger rtol is proposed
 
 std::optional<double> time_error(const MotionResult& motion) {
   if (motion.error && motion.error->completed && std::isfinite(motion.error->displacement.l2))
     return motion.error->displacement.l2;
-  if (motion.accumulated && std::isfinite(motion.accumulated->error)) return motion.accumulated->error;
+  if (motion.segment_error && std::isfinite(motion.segment_error->error)) return motion.segment_error->error;
   return std::nullopt;
 }
 
@@ -25,7 +25,8 @@ std::string finer(const ModelSummary& model) {
   return model.order == 1 ? "mesh.order: 2, or finer cells, would reduce it" : "finer cells would reduce it";
 }
 
-// By powers of ten, with the errors in proportion to rtol.
+// A larger rtol, by a power of ten, that suffices for this mesh error, assuming that `time`, the integration error, is
+// proportional to rtol. Empty if there is none.
 std::optional<double> sufficient_rtol(double mesh, double time, double rtol) {
   if (!(kMargin * time < mesh)) return std::nullopt;
   const double decades = time > 0 ? std::floor(std::log10(mesh / (kMargin / 3 * time))) : 1;
@@ -34,13 +35,13 @@ std::optional<double> sufficient_rtol(double mesh, double time, double rtol) {
 }
 
 std::string advice(const RunResult& result, double mesh, const std::optional<double>& time) {
-  if (!time) return mesh > kSmall ? finer(result.model) : "";
-  if (*time > kMuch * mesh) return "the integration dominates: a smaller integrator.rtol or step would reduce it";
-  if (mesh <= kMuch * *time || mesh <= kSmall) return "";
+  if (!time) return mesh > kAccurateMesh ? finer(result.model) : "";
+  if (*time > kDominates * mesh) return "the integration dominates: a smaller integrator.rtol or step would reduce it";
+  if (mesh <= kDominates * *time || mesh <= kAccurateMesh) return "";
   std::string out = "the mesh dominates: " + finer(result.model);
   if (const auto& rtol = result.motion->rtol)
     if (const auto enough = sufficient_rtol(mesh, *time, *rtol))
-      out += fmt::format("; as it is, rtol {:.0e} would do", *enough);
+      out += fmt::format("; for this mesh, rtol {:.0e} would suffice", *enough);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Which error of a run is the larger one, that of the mesh or that of the integration, and what to change.
+// Compares the errors of the mesh and of the time integration, and advises what to refine.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@
 namespace orthodyn {
 
 struct ErrorBalance {
-  double mesh = 0;             // MeshError::relative
-  std::string mesh_by;         // "finer elements, 0.2 s of CPU"
-  std::optional<double> time;  // of the motion: estimated, or as far as errors of steps have added up; else unknown
+  double mesh = 0;                  // MeshError::relative
+  std::string mesh_by;              // "finer elements, 0.2 s of CPU"
+  std::optional<double> time;       // relative error of the integration, if estimated
   std::vector<ProbedError> probed;  // MeshError::probed
   bool probed_unknown = false;      // MeshError::probed_unknown
-  std::string advice;               // "the mesh dominates: use finer cells; rtol 1e-3 would do"
+  std::string advice;               // "the mesh dominates: use finer cells; rtol 1e-3 would suffice"
 };
 
-// None where the mesh's error is not known.
+// Empty if the mesh error is unknown.
 std::optional<ErrorBalance> error_balance(const RunResult& result);
 
 }  // namespace orthodyn

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <string>
 
 #include "lib/config/registry.h"
@@ -15,23 +14,23 @@ namespace orthodyn {
 
 namespace {
 
-constexpr std::size_t kMostSamples = 200;
+constexpr std::size_t kMaxSamples = 200;
 constexpr double kBytes = 1e9;      // for the samples of both runs
-constexpr double kRefinement = 10;  // of rtol
+constexpr double kRefinement = 10;  // rtol of the first run over that of the second
 constexpr long kMoreSteps = 10;
 
 std::size_t stride_for(std::size_t outputs, std::size_t samples) { return (outputs + samples - 1) / samples; }
 
 ErrorNorms scaled(const ErrorNorms& e, double factor) { return {factor * e.final, factor * e.l2, factor * e.max}; }
 
-// To the digits with which it is told.
+// Rounds to the number of digits shown in messages.
 double rounded(double x) { return std::strtod(fmt::format("{:.12g}", x).c_str(), nullptr); }
 
-// What decides on the steps, so that the second run is more accurate.
+// Settings that make the second run more accurate.
 IntegratorSettings refined(const IntegratorSettings& own) {
   IntegratorSettings more;
   if (own.step) more.step = rounded(*own.step / 2);
-  if (own.safety && !own.step) more.safety = rounded(*own.safety / 2);  // of a step that follows the critical one
+  if (own.safety && !own.step) more.safety = rounded(*own.safety / 2);  // the step is `safety` times the critical step
   if (own.rtol) more.rtol = rounded(*own.rtol / kRefinement);
   if (own.modes) more.modes = 2 * *own.modes;
   if (own.below) more.below = rounded(2 * *own.below);
@@ -42,10 +41,10 @@ IntegratorSettings refined(const IntegratorSettings& own) {
   return more;
 }
 
-// As PATH=VALUE.
 std::vector<std::string> assignments(const IntegratorSettings& settings) {
   std::vector<std::string> all;
-  for (const auto& [key, value] : numbers(settings)) all.push_back(fmt::format("integrator.{}={:.12g}", key, value));
+  for (const auto& [key, value] : numeric_settings(settings))
+    all.push_back(fmt::format("integrator.{}={:.12g}", key, value));
   return all;
 }
 
@@ -53,8 +52,8 @@ std::vector<std::string> assignments(const IntegratorSettings& settings) {
 
 std::size_t samples_within(double bytes, std::size_t unknowns) {
   const double one =
-      2.0 * 2 * sizeof(double) * static_cast<double>(std::max<std::size_t>(unknowns, 1));  // q and v, twice
-  return static_cast<std::size_t>(std::clamp(bytes / one, 2.0, double{kMostSamples}));
+      2.0 * 2 * sizeof(double) * static_cast<double>(std::max<std::size_t>(unknowns, 1));  // q and v of two runs
+  return static_cast<std::size_t>(std::clamp(bytes / one, 2.0, double{kMaxSamples}));
 }
 
 ErrorEstimator::SampleRecorder::SampleRecorder(std::size_t outputs, std::size_t samples)
@@ -73,12 +72,12 @@ ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)
       samples_(samples_within(kBytes, static_cast<std::size_t>(setup.built.model->num_dofs()))),
       first_(plan_.output_times.size(), samples_) {
   if (plan_.output_times.empty())
-    setup.config.at("output").fail("an error is estimated at the output times, and there are none; set frames");
+    setup.config.at("output").fail("the error is estimated at output times, and there are none; set output.frames");
   const Config section = setup.config.at("integrator");
-  const auto resolved = Registry<IntegratorChoice>::read(section);  // with what the first run decided
+  const auto resolved = Registry<IntegratorChoice>::read(section);  // including decisions of the first run
   const IntegratorSettings own = resolved->settings();
   if (!own.step && !own.rtol && !own.safety)
-    section.fail("has neither rtol nor step, so that no more accurate run can be made");
+    section.fail("has neither rtol nor step: no more accurate run is possible");
   fixed_step_ = own.step.has_value();
   const IntegratorSettings finer = refined(own);
   refinement_ = assignments(finer);

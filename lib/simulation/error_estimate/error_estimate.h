@@ -1,8 +1,8 @@
-// How far a run is from the solution, by a second one that is more accurate: at a tenth of rtol, or with
-// half the step and Richardson's extrapolation (Hairer, Norsett & Wanner 1993, II.4).
+// Estimates the time-integration error of a run by a second, more accurate run: with rtol / 10, or with half the step
+// and Richardson extrapolation (Hairer, Norsett & Wanner 1993, II.4).
 //
-// What is left of the second run's own error, some sixth for rtol / 10, makes the estimate a figure of
-// the right size, no bound. Errors that both runs share, of the mesh and the model, are not in it.
+// The estimate is an order of magnitude, not a bound, because the second run has an error, too: for rtol / 10 about one
+// sixth of the first run's. Errors of the mesh and the model, which are common to both runs, are not included.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 #include "lib/ode/integrator.h"
 #include "lib/simulation/error_estimate/error_norms.h"
-#include "lib/simulation/error_estimate/trajectory.h"
+#include "lib/simulation/error_estimate/recorders.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
 
@@ -20,34 +20,34 @@ namespace orthodyn {
 
 struct ErrorEstimate {
   bool completed = false;
-  std::string failure_reason;         // why not completed
-  std::string against;                // what the second run had: "integrator.rtol=1e-05"
-  ErrorNorms displacement, velocity;  // mass norm relative to the largest; NaN where nothing moves
-  int samples = 0;                    // times that were compared, the initial one included
+  std::string failure_reason;         // of the second run; "" if it completed
+  std::string against;                // setting of the second run: "integrator.rtol=1e-05"
+  ErrorNorms displacement, velocity;  // in the mass norm, relative to the largest; NaN if nothing moves
+  int samples = 0;                    // times compared, including the initial one
   double wall_seconds = 0;
 };
 
-// How many states of two runs fit into so many bytes: 200, which tell as much as thousands, or fewer of a
-// large model; 2 at least.
+// Number of states to record of each run, so that those of both runs fit into `bytes`: at least 2, and at most 200,
+// which suffice.
 std::size_t samples_within(double bytes, std::size_t unknowns);
 
 class ErrorEstimator {
  public:
-  // `setup` must outlive it. Throws ConfigError if the plan has no outputs to compare at, or the
-  // integrator has neither rtol nor step or refuses the second run's values.
+  // `setup` must outlive the estimator. Throws ConfigError if the plan has no outputs, if the integrator has neither
+  // rtol nor step, or if it rejects the refined values.
   ErrorEstimator(const Setup& setup, Plan plan);
 
-  // Looks on at the run whose error is asked for.
+  // Observes the run whose error is estimated.
   Observer& recorder() { return first_; }
 
-  // What the second run changes, as PATH=VALUE.
+  // Changes of the scene for the second run, as PATH=VALUE.
   const std::vector<std::string>& refinement() const { return refinement_; }
 
-  // After the run has completed: the second run.
+  // Computes the second run. Call after the first run has completed.
   ErrorEstimate estimate(std::vector<Observer*> observers, const std::atomic<bool>& interrupt) const;
 
  private:
-  // Of every so many outputs and the last one.
+  // Records every n-th output and the last one.
   class SampleRecorder : public Observer {
    public:
     SampleRecorder(std::size_t outputs, std::size_t samples);
@@ -65,7 +65,7 @@ class ErrorEstimator {
 
   const Setup& setup_;
   Plan plan_;
-  std::shared_ptr<const IntegratorChoice> refined_;  // of the second run
+  std::shared_ptr<const IntegratorChoice> refined_;  // for the second run
   bool fixed_step_ = false;
   std::vector<std::string> refinement_;
   std::size_t samples_;

@@ -7,20 +7,20 @@
 #include <stdexcept>
 
 #include "lib/core/symmetric_eigen.h"
-#include "lib/simulation/error_estimate/phase.h"
-#include "lib/simulation/error_estimate/whole_states.h"
+#include "lib/simulation/error_estimate/dominant_frequency.h"
+#include "lib/simulation/error_estimate/recorders.h"
 
 namespace orthodyn {
 
 namespace {
 
-// Final, rms and largest of distances at the samples, relative to a scale.
+// Final, rms and largest of the distances, relative to a scale.
 ErrorNorms summarise(const std::vector<double>& distances, double scale) {
   if (scale == 0) scale = std::numeric_limits<double>::quiet_NaN();
   double squares = 0, largest = 0;
   for (const double d : distances) {
     squares += d * d;
-    if (!(d <= largest)) largest = d;  // NaN stays
+    if (!(d <= largest)) largest = d;  // keeps NaN
   }
   return {distances.back() / scale, std::sqrt(squares / static_cast<double>(distances.size())) / scale,
           largest / scale};
@@ -28,7 +28,7 @@ ErrorNorms summarise(const std::vector<double>& distances, double scale) {
 
 double largest(const std::vector<double>& x) { return *std::max_element(x.begin(), x.end()); }
 
-// The length of a probe's displacement in each column.
+// Length of the probe's displacement in each column.
 std::vector<double> lengths(const ProbePoint& probe, const Eigen::MatrixXd& q) {
   std::vector<double> out;
   for (Eigen::Index k = 0; k < q.cols(); ++k) {
@@ -40,7 +40,7 @@ std::vector<double> lengths(const ProbePoint& probe, const Eigen::MatrixXd& q) {
   return out;
 }
 
-// The sizes of quantities over time.
+// Norm of each quantity in each column.
 std::vector<std::vector<double>> sizes(const std::vector<FollowedQuantity>& quantities, const Eigen::MatrixXd& values) {
   std::vector<std::vector<double>> all;
   Eigen::Index row = 0;
@@ -60,7 +60,7 @@ double interval(const Trajectory& t) {
 
 ReferenceNorms::ReferenceNorms(const FemModel& model, Trajectory reference, std::vector<ProbePoint> probes,
                                std::vector<FollowedQuantity> quantities)
-    : ReferenceNorms([&model](const Eigen::MatrixXd& x) { return times_mass(model, x); }, std::move(reference),
+    : ReferenceNorms([&model](const Eigen::MatrixXd& x) { return global_mass_product(model, x); }, std::move(reference),
                      std::move(probes), std::move(quantities)) {}
 
 ReferenceNorms::ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes,
@@ -83,8 +83,8 @@ ReferenceNorms::ReferenceNorms(Metric metric, Trajectory reference, std::vector<
   }
 }
 
-// M times the shape that takes the largest part of the reference's motion about its mean (proper orthogonal
-// decomposition by the method of snapshots; Sirovich 1987).
+// M times the dominant mode of the reference's motion about its mean (proper orthogonal decomposition by the method of
+// snapshots; Sirovich 1987).
 Vector ReferenceNorms::leading_mode() const {
   const Eigen::MatrixXd motion = reference_.q.colwise() - reference_.q.rowwise().mean();
   const Eigen::MatrixXd weighted = metric_(motion);
@@ -102,7 +102,7 @@ std::vector<double> ReferenceNorms::norms(const Eigen::MatrixXd& x) const {
 TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
   if (trajectory.q.rows() != reference_.q.rows() || trajectory.times != reference_.times ||
       trajectory.quantities.rows() != reference_.quantities.rows())
-    throw std::logic_error("trajectory and reference do not belong together");
+    throw std::logic_error("trajectory and reference do not match");
   const Eigen::MatrixXd dq = trajectory.q - reference_.q;
   TrajectoryErrors errors;
   errors.displacement = summarise(norms(dq), scales_.displacement);
@@ -117,6 +117,17 @@ TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
     errors.phase = phase_difference(trajectory.q.transpose() * mode_, reference_.q.transpose() * mode_,
                                     2 * std::numbers::pi * scales_.dominant_frequency, interval(reference_));
   return errors;
+}
+
+ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes, std::vector<FollowedQuantity> quantities) {
+  std::vector<ProbePoint> points;
+  for (const auto& [name, probe] : probes) {
+    const int first = 3 * static_cast<int>(points.size());
+    points.push_back({name, {first, first + 1, first + 2}});
+  }
+  const double share = 1 / static_cast<double>(points.size());
+  const auto mean = [share](const Eigen::MatrixXd& x) -> Eigen::MatrixXd { return share * x; };
+  return {mean, std::move(reference), points, std::move(quantities)};
 }
 
 }  // namespace orthodyn

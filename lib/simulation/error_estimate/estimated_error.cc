@@ -9,29 +9,27 @@
 #include "lib/core/errors.h"
 #include "lib/fem/element_mesh.h"
 #include "lib/mesh/selection.h"
-#include "lib/simulation/error_estimate/blind_spot.h"
+#include "lib/simulation/error_estimate/locking_check.h"
 #include "lib/simulation/run/outcome.h"
 
 namespace orthodyn {
 
-bool is_affordable(const FemModel& model) {
-  return !model.ranks() && FinerModel::unknowns_of(model) <= kMostFinerUnknowns;
-}
-
 namespace {
 
-constexpr double kMostEntries = 5e6;  // of the shapes of modes in finer elements
+constexpr double kMaxFinerUnknowns = 120'000;
+constexpr double kMaxShapeEntries = 5e6;  // of mode shapes in finer elements
 
-// Works with finer elements; false where they cannot: an estimate is not to fail what was computed.
+// Calls `work`, which uses finer elements. Returns false if it fails, because a failed estimate must not fail the
+// computation.
 template <class Work>
-bool tried(const FemModel& model, double& cpu_seconds, const Work& work) {
-  if (!is_affordable(model)) return false;
+bool try_finer_elements(const FemModel& model, double& cpu_seconds, const Work& work) {
+  if (model.ranks() || FinerModel::estimated_unknowns(model) > kMaxFinerUnknowns) return false;
   const double begin = cpu_seconds_now();
   bool done = false;
   try {
     work();
     done = true;
-  } catch (const RunError&) {          // an unstable state, or no memory
+  } catch (const RunError&) {          // unstable state, or out of memory
   } catch (const RecoverableError&) {  // the finer elements have no forces there
   } catch (const ConfigError&) {       // a load or a support that the finer mesh does not allow
   }
@@ -39,7 +37,8 @@ bool tried(const FemModel& model, double& cpu_seconds, const Work& work) {
   return done;
 }
 
-// Of each shape what the body's consistent mass makes of it: 1 less what lumping puts on top.
+// shape^T M shape for each shape, with the consistent mass matrix M. It is less than 1, because the shapes have unit
+// modal mass with the lumped one.
 std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::vector<NodalVector>& shapes) {
   const ElementMesh mesh(parts.mesh);
   std::vector<double> sums(shapes.size(), 0);
@@ -57,8 +56,9 @@ std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::v
   return sums;
 }
 
-// A shape of unit modal mass has the elastic energy omega^2/2: what of it is error is the error of omega^2/2. A lumped
-// mass adds to that the difference to the consistent one, whose own error is of higher order.
+// Relative error of each frequency, by recovered stresses. A shape of unit modal mass has the elastic energy omega^2/2,
+// so that the error of this energy gives the error of omega^2. The error of a lumped mass is its difference from the
+// consistent mass, whose own error is of higher order.
 std::vector<double> recovered_frequency_errors(const FemModel& model, const State& state, const Modes& modes) {
   const FemModel::Parts& parts = model.parts();
   const NodalExpansion about(parts, state.t, state.q, state.v);
@@ -77,7 +77,7 @@ std::vector<double> recovered_frequency_errors(const FemModel& model, const Stat
   return errors;
 }
 
-// The first elastic shape, so small that the law is linear.
+// A displacement along the first elastic mode, so small that the law is linear.
 State along_a_shape(const FemModel& model, const State& about, const Modes& modes) {
   const auto first = std::min(static_cast<std::size_t>(modes.zeros), modes.modes.size() - 1);
   const Vector& shape = modes.modes[first].shape;
@@ -91,7 +91,7 @@ std::string unit_of(const std::string& field, const FemModel& model) {
   return found == all.end() ? "" : found->unit;
 }
 
-// Of all probes but displacements and velocities: those have their own error, and that of the elastic energy.
+// Probed nodes of each probed field. Displacement and velocity are left out, because they have their own estimate.
 NodesByField probed_fields(const Scene& scene, const FemModel& model) {
   NodesByField out;
   for (const auto& [name, probe] : scene.output.probes)
@@ -101,7 +101,7 @@ NodesByField probed_fields(const Scene& scene, const FemModel& model) {
   return out;
 }
 
-// In the order of the probes; without those whose error is no number.
+// Errors of probed fields in the order of the probes. Values that are not finite are left out.
 std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model, const StateError& found) {
   std::vector<ProbedError> out;
   std::map<std::string, std::size_t> next;
@@ -117,11 +117,11 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 
 }  // namespace
 
-FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
-                         const MeshError& recovered, const std::vector<int>& nodes) {
-  FoundByFiner out{recovered};
+StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
+                                   const MeshError& recovered, const std::vector<int>& nodes) {
+  StateMeshError out{recovered};
   MeshError& error = out.error;
-  error.by_finer_elements = tried(model, error.cpu_seconds, [&] {
+  error.by_finer_elements = try_finer_elements(model, error.cpu_seconds, [&] {
     const StateError found =
         state_error(FinerModel(scene, model), state, in_motion, nodes, probed_fields(scene, model));
     const double elastic = model.evaluate("energy.mesh_error", state)[1];
@@ -131,30 +131,31 @@ FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State&
     out.displacements = found.displacements;
     error.probed = probed_errors(scene, model, found);
   });
-  error.blind = blind_spot(model, state, error.by_finer_elements);
+  error.locking_risk = locking_risk(model, state, error.by_finer_elements);
   error.probed_unknown = error.probed.empty() && !probed_fields(scene, model).empty();
   return out;
 }
 
 FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, const State& about, const Modes& modes) {
   FrequencyErrors out;
-  out.by_finer_elements = tried(model, out.cpu_seconds, [&] {
-    if (FinerModel::unknowns_of(model) * static_cast<double>(modes.modes.size()) > kMostEntries)
+  out.by_finer_elements = try_finer_elements(model, out.cpu_seconds, [&] {
+    if (FinerModel::estimated_unknowns(model) * static_cast<double>(modes.modes.size()) > kMaxShapeEntries)
       throw RunError("the shapes of the finer elements take too much memory");
     out.shares = frequency_errors(FinerModel(scene, model), about, modes);
     for (const double share : out.shares)
       if (!std::isfinite(share)) throw RunError("it is not finite");
   });
   if (!out.by_finer_elements) out.shares = recovered_frequency_errors(model, about, modes);
-  if (!modes.modes.empty()) out.blind = blind_spot(model, along_a_shape(model, about, modes), out.by_finer_elements);
+  if (!modes.modes.empty())
+    out.locking_risk = locking_risk(model, along_a_shape(model, about, modes), out.by_finer_elements);
   return out;
 }
 
-std::string blindness_warning(const std::string& blind) {
-  return blind.empty() ? "" : "the mesh's error may be larger than estimated: " + blind;
+std::string locking_warning(const std::string& locking_risk) {
+  return locking_risk.empty() ? "" : "the mesh error may be larger than estimated: " + locking_risk;
 }
 
-std::string finer_mesh(int order) { return order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells"; }
+std::string finer_mesh(int order) { return order == 1 ? "Use mesh.order: 2 or finer cells" : "Use finer cells"; }
 
 std::string stress_warning(const MeshError& error, int order) {
   const auto is_coarse = [](const ProbedError& e) { return e.share() > kCoarseStress; };
@@ -163,8 +164,8 @@ std::string stress_warning(const MeshError& error, int order) {
   const auto worst = std::max_element(error.probed.begin(), error.probed.end(),
                                       [](const auto& a, const auto& b) { return a.share() < b.share(); });
   return fmt::format(
-      "the mesh is coarse for {} of {} probed stresses or strains: {} of {} is off by about {:.2g} % of "
-      "its size there. {} there, and compare",
+      "the mesh is coarse for {} of {} probed stresses or strains: {} of {} has an error of about {:.2g} % of its size "
+      "there. {} there, and compare",
       count, error.probed.size(), worst->field, worst->probe, 100 * worst->share(), finer_mesh(order));
 }
 

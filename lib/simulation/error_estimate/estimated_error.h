@@ -1,8 +1,7 @@
-// The mesh's error of equilibria, motions and modes, and how it was found: by finer elements (finer_solution.h) where
-// these can be afforded, else by recovered stresses (lib/fem/stress_recovery.h), with a word on what they may not see.
+// Estimates the mesh error of equilibria, motions and modes: by finer elements (finer_solution.h) if affordable, else
+// by recovered stresses (lib/fem/stress_recovery.h). Warns of locking that the estimate may miss.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,38 +10,34 @@
 
 namespace orthodyn {
 
-// Whether finer elements are affordable: one process holds the model, and they have at most this many unknowns.
-inline constexpr double kMostFinerUnknowns = 120'000;
-bool is_affordable(const FemModel& model);
-
-// Estimates the mesh's error of a state by finer elements, those of probed fields included (MeshError::probed). If
-// finer elements cannot be used, returns `recovered`, the estimate by recovered stresses, with a sentence on the errors
-// that it may miss (MeshError::blind). `displacements`: errors at `nodes`, m; empty without finer elements.
-struct FoundByFiner {
+// Estimates the mesh error of a state by finer elements, including the errors of probed fields (MeshError::probed). If
+// finer elements cannot be used, returns `recovered`, the estimate by recovered stresses. Sets MeshError::locking_risk.
+// `in_motion`: see state_error(). `nodes`: nodes at which errors of the displacement are estimated.
+struct StateMeshError {
   MeshError error;
-  std::vector<Vec3> displacements = {};  // empty: not found
+  std::vector<Vec3> displacements = {};  // exact less computed, at `nodes`, m; empty without finer elements
 };
-FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
-                         const MeshError& recovered, const std::vector<int>& nodes = {});
+StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
+                                   const MeshError& recovered, const std::vector<int>& nodes = {});
 
 struct FrequencyErrors {
-  std::vector<double> shares;      // of each mode that by which it is too high; 0 of those at zero
+  std::vector<double> shares;      // relative error of each frequency; positive if it is too high, 0 for zero modes
   bool by_finer_elements = false;  // else by recovered stresses and the difference of lumped and consistent mass
-  std::string blind = {};          // as of MeshError
+  std::string locking_risk = {};   // as MeshError::locking_risk
   double cpu_seconds = 0;
 };
 FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, const State& about, const Modes& modes);
 
-// "the mesh makes mode 1 about 33 % too high, ...", or "" where all are below kCoarseMesh.
+// "the mesh is coarse for 2 of 6 frequencies: mode 1 about 33 % too high, ..."; "" if all errors are below kCoarseMesh.
 std::string frequency_warning(const FrequencyErrors& errors, int order);
 
-// "the mesh is coarse for 1 of 2 probed stresses ...", or "" where all are below kCoarseStress.
+// "the mesh is coarse for 1 of 2 probed stresses ..."; "" if all errors are below kCoarseStress.
 std::string stress_warning(const MeshError& error, int order);
 
-// "the mesh's error may be larger than estimated: ...", of MeshError::blind; "" where that is.
-std::string blindness_warning(const std::string& blind);
+// "the mesh error may be larger than estimated: ..."; "" if `locking_risk` is empty.
+std::string locking_warning(const std::string& locking_risk);
 
-// What would make a mesh's error smaller: "Take mesh.order: 2 or finer cells".
+// Remedy for a coarse mesh: "Use mesh.order: 2 or finer cells".
 std::string finer_mesh(int order);
 
 }  // namespace orthodyn

@@ -18,7 +18,7 @@ using Barycentric = Eigen::Vector4d;
 
 constexpr int kChildren = 8;
 
-// Elements have the axes of those that they are part of.
+// Gives each fine element the material axes of its parent element.
 class AxesOfParents : public AxesSource {
  public:
   AxesOfParents(std::shared_ptr<const AxesSource> source, std::shared_ptr<const TetMesh> coarse, int children)
@@ -52,7 +52,7 @@ Scene finer(const Scene& scene, const TetMesh& mesh) {
   return out;
 }
 
-// Of a node of a cell, given by its place among the cell's nodes.
+// Barycentric coordinates of a cell's node.
 Barycentric place_of(std::size_t node) {
   if (node < 4) return Barycentric::Unit(static_cast<Eigen::Index>(node));
   const auto [i, j] = kTetEdges[node - 4];
@@ -80,9 +80,9 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
   lift_.setFromTriplets(entries.begin(), entries.end());
 }
 
-double FinerModel::unknowns_of(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
+double FinerModel::estimated_unknowns(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
 
-// The corners of fine cells are nodes of the coarse ones, with the same numbers; the others lie between two of these.
+// Corners of fine cells are nodes of the coarse mesh with the same numbers; the other nodes lie between two of these.
 FinerModel::Rows FinerModel::nodal_lift(const TetMesh& fine) const {
   const TetMesh& mesh = coarse_.parts().mesh;
   const Cells parents = tet_cells(mesh), cells = tet_cells(fine);

@@ -1,7 +1,7 @@
-// A scene's body with the next finer elements, to test what the elements at hand cannot do: quadratic tetrahedra in the
-// place of linear ones, each quadratic one divided in eight. What the coarse elements can do these can, too.
+// A scene's model with finer elements: linear tetrahedra become quadratic, quadratic ones are divided into eight. The
+// coarse displacements are a subspace of the fine ones.
 //
-// With a consistent mass. Of one process: not of a model that several ranks hold.
+// The mass matrix is consistent. Models distributed over ranks are not supported.
 #pragma once
 
 #include <memory>
@@ -12,19 +12,21 @@ namespace orthodyn {
 
 class FinerModel {
  public:
-  // `coarse`: the model of the scene, which must outlive this. Throws ConfigError where the scene cannot be built so.
+  // `coarse`: the model of the scene, which must outlive the object. Throws ConfigError if the scene cannot be built
+  // with finer elements.
   FinerModel(const Scene& scene, const FemModel& coarse);
 
-  // How many unknowns it will about have.
-  static double unknowns_of(const FemModel& coarse);
+  // Approximate number of unknowns of the finer model.
+  static double estimated_unknowns(const FemModel& coarse);
 
   const FemModel& model() const { return *built_.model; }
   const FemModel& coarse() const { return coarse_; }
 
-  // The free coordinates of a coarse state, m: of its displacements at the time t, s, with those of its supports.
+  // Interpolates the coarse unknowns q at time t (s), together with the displacements of supports. Returns the unknowns
+  // of the finer model (m).
   Vector state_of(double t, const ConstVectorRef& q) const;
 
-  // The same of free coordinates alone, linear, and its transpose.
+  // lift() interpolates unknowns as if supports stood still; lower() is its transpose.
   Vector lift(const ConstVectorRef& coarse) const { return lift_ * coarse; }
   Vector lower(const ConstVectorRef& fine) const { return lift_.transpose() * fine; }
 
@@ -34,7 +36,7 @@ class FinerModel {
 
   const FemModel& coarse_;
   BuiltScene built_;
-  Rows nodal_;  // from a value at the coarse nodes to one at the fine ones
+  Rows nodal_;  // from values at coarse nodes to values at fine nodes
   Rows lift_;   // from coarse to fine unknowns
 };
 

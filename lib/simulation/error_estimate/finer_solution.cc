@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 #include "lib/analysis/rigid_freedom.h"
 #include "lib/core/errors.h"
@@ -15,16 +14,16 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kAccuracy = 0.02;  // of the correction's energy
-constexpr int kMostIterations = 300;
-constexpr double kFreeShift = 1e-10;  // of the largest squared frequency: makes the stiffness of a free body definite
+constexpr double kAccuracy = 0.02;  // relative accuracy of the correction's energy
+constexpr int kMaxIterations = 300;
+constexpr double kFreeShift = 1e-10;  // shift over the largest squared frequency, for free bodies
 
-// Energies of errors decline with the size of cells by its power of 1 (edges, corners) to 4 (smooth, quadratic): of
-// quadratic elements divided in two 1/2 to 15/16 is seen. Quadratic elements in the place of linear ones see nearly
-// all.
-double beyond(int order) { return order == 1 ? 1 : 4.0 / 3; }
+// Ratio of the energy of the whole error to the part that finer elements resolve. This energy is proportional to h^p
+// with the cell size h and p from 1 (edges, corners) to 4 (smooth solution, quadratic elements), so that halving h
+// resolves 1/2 to 15/16 of it; 3/4 is assumed. Replacing linear elements by quadratic ones resolves nearly all.
+double extrapolation(int order) { return order == 1 ? 1 : 4.0 / 3; }
 
-// On a model's pattern. Without a shift they are the same.
+// Values of K and of K + shift M on a model's pattern.
 struct Matrices {
   std::vector<double> stiffness, shifted;
 };
@@ -40,7 +39,7 @@ Matrices matrices(const FemModel& whole, const State& about, double shift) {
   return out;
 }
 
-// (K + s M) x = b of the finer model about a state of the coarse one.
+// Solves (K + s M) x = b for the finer model at a coarse state; s is the shift.
 class FinerSystem {
  public:
   FinerSystem(const FinerModel& finer, const State& coarse, double shift)
@@ -61,7 +60,7 @@ class FinerSystem {
         });
   }
 
-  TwoLevelSolver::Solution solve(const Vector& b) const { return solver_->solve(b, kAccuracy, kMostIterations); }
+  TwoLevelSolver::Solution solve(const Vector& b) const { return solver_->solve(b, kAccuracy, kMaxIterations); }
   Vector stiffness_times(const Vector& x) const {
     Vector y(x.size());
     finer_.model().pattern().multiply(values_.stiffness.data(), x, y);
@@ -77,7 +76,8 @@ class FinerSystem {
   std::unique_ptr<TwoLevelSolver> solver_;
 };
 
-// With the consistent mass, with which forces that the coarse elements see are in balance.
+// Acceleration with the consistent mass, with which forces that the coarse elements resolve leave no residual in the
+// finer elements.
 Vector acceleration(const FemModel& model, const State& s) {
   const FemModel::Parts& parts = model.parts();
   Vector a(s.q.size());
@@ -100,14 +100,15 @@ Vector mass_times(const FemModel& model, const Vector& x) {
   return y;
 }
 
-// Values of an output, one column per node. The finer mesh has the nodes of the coarse mesh first, in the same order.
+// Values of an output, one column per node. The finer mesh contains the nodes of the coarse mesh first, in the same
+// order.
 Eigen::MatrixXd nodal_values(const FemModel& model, const std::string& field, const State& state) {
   const auto values = model.evaluate(field, state);
   const auto nodes = static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), std::ssize(values) / nodes, nodes);
 }
 
-// Errors of one field at some nodes: differences between the coarse and the finer elements, extrapolated.
+// Errors of one field at `nodes`: differences between coarse and finer elements, extrapolated.
 std::vector<FieldError> field_errors(const FinerModel& finer, const State& coarse, const State& fine,
                                      const std::string& field, const std::vector<int>& nodes) {
   constexpr double kOfLargest = 0.1;
@@ -119,40 +120,11 @@ std::vector<FieldError> field_errors(const FinerModel& finer, const State& coars
   std::vector<FieldError> out;
   for (const int node : nodes)
     out.push_back({std::max(before.col(node).norm(), kOfLargest * largest),
-                   beyond(finer.coarse().parts().mesh.order()) * (after.col(node) - before.col(node)).norm()});
+                   extrapolation(finer.coarse().parts().mesh.order()) * (after.col(node) - before.col(node)).norm()});
   return out;
 }
 
-}  // namespace
-
-StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
-                       const NodesByField& fields) {
-  const FemModel& fine = finer.model();
-  const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
-  const double fastest = finer.coarse().frequency_bound();
-  const FinerSystem system(finer, coarse, is_free ? kFreeShift * fastest * fastest : 0);
-  Vector force(fine.num_dofs());
-  fine.force(coarse.t, system.q(), in_motion ? finer.lift(coarse.v) : Vector(Vector::Zero(force.size())), force);
-  if (in_motion) force -= mass_times(fine, finer.lift(acceleration(finer.coarse(), coarse)));
-  const auto found = system.solve(force);
-  const int order = finer.coarse().parts().mesh.order();
-  NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
-  fine.parts().dofs->add_to(found.x, correction);
-  StateError out{beyond(order) * 0.5 * found.energy, {}, {}};
-  for (const int node : nodes) out.displacements.emplace_back(beyond(order) * correction.col(node));
-  const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
-  for (const auto& [field, at] : fields) {
-    try {
-      out.fields[field] = field_errors(finer, coarse, closer, field, at);
-    } catch (const RecoverableError&) {  // it has no values in the finer elements
-    }
-  }
-  return out;
-}
-
-namespace {
-
-// K + s M is positive definite.
+// A shift s for which K + s M is positive definite.
 double shift_for(const Modes& modes) {
   const double lowest = modes.modes.front().lambda;
   if (modes.zeros == 0 && lowest > 0) return 0;
@@ -161,7 +133,7 @@ double shift_for(const Modes& modes) {
   return -2 * lowest;
 }
 
-// K and M on some vectors, for Rayleigh's quotients.
+// K and M restricted to a few vectors (Rayleigh-Ritz).
 class Subspace {
  public:
   Subspace(const FinerSystem& system, const FemModel& model, Eigen::Index size)
@@ -173,7 +145,7 @@ class Subspace {
     MV_.col(count_) = mass_times(model_, V_.col(count_));
     ++count_;
   }
-  // Ascending.
+  // Rayleigh-Ritz values, ascending.
   Vector eigenvalues() const {
     const auto V = V_.leftCols(count_);
     const Eigen::MatrixXd M = V.transpose() * MV_.leftCols(count_), K = V.transpose() * KV_.leftCols(count_);
@@ -191,6 +163,31 @@ class Subspace {
 
 }  // namespace
 
+StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
+                       const NodesByField& fields) {
+  const FemModel& fine = finer.model();
+  const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
+  const double fastest = finer.coarse().frequency_bound();
+  const FinerSystem system(finer, coarse, is_free ? kFreeShift * fastest * fastest : 0);
+  Vector force(fine.num_dofs());
+  fine.force(coarse.t, system.q(), in_motion ? finer.lift(coarse.v) : Vector(Vector::Zero(force.size())), force);
+  if (in_motion) force -= mass_times(fine, finer.lift(acceleration(finer.coarse(), coarse)));
+  const auto found = system.solve(force);
+  const int order = finer.coarse().parts().mesh.order();
+  NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
+  fine.parts().dofs->add_to(found.x, correction);
+  StateError out{extrapolation(order) * 0.5 * found.energy, {}, {}};
+  for (const int node : nodes) out.displacements.emplace_back(extrapolation(order) * correction.col(node));
+  const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
+  for (const auto& [field, at] : fields) {
+    try {
+      out.fields[field] = field_errors(finer, coarse, closer, field, at);
+    } catch (const RecoverableError&) {  // no values in the finer elements
+    }
+  }
+  return out;
+}
+
 std::vector<double> frequency_errors(const FinerModel& finer, const State& about, const Modes& modes) {
   std::vector<double> errors(modes.modes.size(), 0);
   const auto zeros = static_cast<std::size_t>(modes.zeros);
@@ -207,9 +204,9 @@ std::vector<double> frequency_errors(const FinerModel& finer, const State& about
     if (correction.energy > 0) space.add(correction.x);
   }
   const Vector finer_values = space.eigenvalues();
-  const double more = beyond(finer.coarse().parts().mesh.order());
+  const double more = extrapolation(finer.coarse().parts().mesh.order());
   for (std::size_t k = zeros; k < errors.size(); ++k) {
-    // By compliances, 1/lambda, to which errors add as energies do to that of a body under given loads.
+    // Extrapolates the compliance 1/lambda, because errors of compliances add like energies.
     const double excess = modes.modes[k].lambda / finer_values[static_cast<Eigen::Index>(k)] - 1;
     errors[k] = std::sqrt(std::max(1 + more * excess, 0.0)) - 1;
   }

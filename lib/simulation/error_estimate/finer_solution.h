@@ -1,7 +1,6 @@
-// What the next finer elements (finer_model.h) make of a state or a mode that was computed: an estimate of the mesh's
-// error that sees what recovered stresses cannot, such as locking, where all elements are wrong in the same way. The
-// coarse solution is tested with the finer elements' functions (a hierarchical estimate; Bank & Smith 1993, SIAM J.
-// Numer. Anal. 30, 921), and what these find is enlarged by what still finer ones would find beyond it.
+// Estimates the mesh error of a state or a mode by testing it with finer elements (finer_model.h): a hierarchical
+// estimate (Bank & Smith 1993, SIAM J. Numer. Anal. 30, 921), extrapolated to infinitely fine elements. It detects
+// errors that recovered stresses cannot, such as locking, in which all elements are wrong alike.
 #pragma once
 
 #include <map>
@@ -13,30 +12,32 @@
 
 namespace orthodyn {
 
-// For each output of the model, such as nodal_stress, the nodes at which its error is wanted.
+// For each output, such as nodal_stress, the nodes at which its error is estimated.
 using NodesByField = std::map<std::string, std::vector<int>>;
 
-// Norms over the components of a field at a node, in the field's unit. `scale`: the norm of the field there, at least a
-// tenth of its largest norm in the body.
+// Error of a field at a node: norms over the field's components, in its unit. `scale`: norm of the field at the node,
+// but at least a tenth of its largest norm in the body.
 struct FieldError {
   double scale = 0, error = 0;
 };
 
 struct StateError {
-  double energy = 0;                                      // J, elastic, of the error
-  std::vector<Vec3> displacements;                        // m, true less computed, of the nodes that are asked for
-  std::map<std::string, std::vector<FieldError>> fields;  // for each wanted node; fields without values are absent
+  double energy = 0;                                      // elastic energy of the error, J
+  std::vector<Vec3> displacements;                        // at the requested nodes, exact less computed, m
+  std::map<std::string, std::vector<FieldError>> fields;  // at the requested nodes; fields without values are absent
 };
 
-// The response of the finer elements to what is out of balance in them: of a linear model in equilibrium the difference
-// of the two solutions, of another one the first step of Newton's method towards the finer one. In motion the body has
-// the acceleration that its forces give it. Throws RunError where the stiffness is not positive definite, or memory
-// does not suffice, RecoverableError where the finer elements have no forces.
+// Estimates the error of a state as the displacement by which the finer elements respond to their residual force. For a
+// linear model in equilibrium this is the difference of the two solutions, else the first Newton step towards the finer
+// solution. `in_motion`: true if the forces accelerate the body, false in an equilibrium. Throws RunError if the
+// stiffness is not positive definite or memory is insufficient, RecoverableError if the finer elements cannot be
+// evaluated.
 StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
                        const NodesByField& fields = {});
 
-// Of each mode the share by which its frequency is too high; 0 of those at zero. By the Rayleigh quotients
-// (Rayleigh-Ritz) of the shapes and of the finer body's responses to their inertia. Throws as above.
+// Relative error of each frequency; positive if it is too high, 0 for zero modes. The more accurate frequencies are
+// Rayleigh-Ritz values of the finer elements for the shapes and the responses to their residual forces. Throws like
+// state_error().
 std::vector<double> frequency_errors(const FinerModel& finer, const State& about, const Modes& modes);
 
 }  // namespace orthodyn

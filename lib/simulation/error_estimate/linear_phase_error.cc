@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/simulation/error_estimate/mass_norm.h"
+
 namespace orthodyn {
 
 namespace {
 
-constexpr double kPart = 0.25;  // a window's duration over the time before it, at least
+constexpr double kPart = 0.25;  // least duration of a window over the time elapsed before it
 
 std::vector<double> numbers_of(const Vector& x) { return {x.begin(), x.end()}; }
 
@@ -22,22 +24,17 @@ PhaseError::Window PhaseError::empty() const {
   return {.t = time_, .mean = zero, .farthest = zero};
 }
 
-double PhaseError::product(const Vector& x) const {
-  Vector Mx(x.size());
-  model_.multiply_mass(x, Mx);
-  return std::max(x.dot(Mx), 0.0);
-}
-
-void PhaseError::look_at(const State& state) {
+void PhaseError::observe(const State& state) {
   const double h = state.t - time_;
   if (!(h > 0)) return;
   time_ = state.t;
   const Vector swing = state.q - window_.mean;
-  const double distance = window_.duration > 0 ? product(swing) : 0, share = h / (window_.duration + h);
+  const double distance = window_.duration > 0 ? std::max(mass_product(model_, swing), 0.0) : 0,
+               share = h / (window_.duration + h);
   window_.swings += window_.duration * share * distance;
   window_.mean += share * swing;
   window_.duration += h;
-  window_.velocities += h * product(state.v);
+  window_.velocities += h * std::max(mass_product(model_, state.v), 0.0);
   if (distance < window_.square) return;
   window_.t = state.t;
   window_.square = distance;
@@ -52,20 +49,20 @@ bool PhaseError::is_full() const {
          frequency() * window_.duration >= 2 * std::numbers::pi;
 }
 
-void PhaseError::take_in(Linearity& linearity) {
+void PhaseError::integrate_window(Linearity& linearity) {
   if (frequency() > 0) {
     const VibrationDrift drift = linearity.drift(window_.t, window_.mean, window_.farthest - window_.mean, frequency());
     error_ = error_ * std::exp(-drift.decay * window_.duration) + drift.after(window_.duration);
     largest_error_ = std::max(largest_error_, error_);
   }
-  skip();
+  discard_window();
 }
 
-void PhaseError::skip() { window_ = empty(); }
+void PhaseError::discard_window() { window_ = empty(); }
 
-double PhaseError::error_now(Linearity& linearity) const {
+double PhaseError::error_with_window(Linearity& linearity) const {
   PhaseError with_the_rest = *this;
-  with_the_rest.take_in(linearity);
+  with_the_rest.integrate_window(linearity);
   return with_the_rest.largest_error_;
 }
 

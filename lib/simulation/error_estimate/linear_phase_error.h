@@ -1,13 +1,21 @@
-// What linear kinematics add up in a vibration, beside their error at the largest displacement: the exact force shifts
-// its frequency, and the motions part. About the mean m of a few periods, with s the largest swing from it,
+// Phase error of vibrations computed with linear kinematics: with the exact force, the frequency is different, so that
+// the exact motion drifts away from the computed one. The error e of the displacement (mass norm, sqrt(kg) m) satisfies
 //
-//   e' + gamma e = min(omega |s . M x|, (|s . M x| |s . K x|)^(1/2)) / (2 |s|_M),   x = (x(m + s) - x(m - s)) / 2,
+//   de/dt + gamma e = min(omega |s^T M x|, sqrt(|s^T M x| |s^T K x|)) / (2 |s|_M),   x = (d(m + s) - d(m - s)) / 2,
 //
-// where x(q) is the displacement from q to the equilibrium of the exact force (Linearity), gamma the decay of free
-// vibrations and omega the frequency of the motion. Of one mode, softer by delta, that is delta omega |s| / 2: a cubic
-// force has 3/8 of the delta at its peak in place of 1/2. What is even in the swing cancels within a period. The
-// largest e is kept; a report of it ends at twice the largest displacement.
-// Source: first-order averaging (Nayfeh & Mook, Nonlinear Oscillations, 1979, 2.3).
+// where
+//
+//   m      mean displacement in a window of time, usually a few periods
+//   s      largest deviation from m in the window, with |s|_M = sqrt(s^T M s)
+//   d(q)   displacement from q to the shape in which the exact force equals the linear force at q (Linearity)
+//   M, K   mass and stiffness matrix of the model; K x is computed as a difference of forces
+//   gamma  decay rate of free vibrations, 1/s
+//   omega  angular frequency of the motion, rad/s
+//
+// The vector x is the part of d that is odd in s; the even part cancels within a period. If the model as a whole is
+// nonlinear, x = d(m + s) is used instead. For a single mode whose exact stiffness is lower by the fraction delta, the
+// right-hand side is delta omega |s|_M / 2. For a cubic force with the fraction delta at the peak, the exact factor is
+// 3/8 instead of 1/2. Source: first-order averaging (Nayfeh & Mook, Nonlinear Oscillations, 1979, 2.3).
 #pragma once
 
 #include "lib/analysis/linearity.h"
@@ -17,38 +25,37 @@ namespace orthodyn {
 
 class PhaseError {
  public:
-  // `model` must outlive it. The motion begins at `start`, s.
+  // `model` must outlive the object. The motion starts at `start` (s).
   PhaseError(const FemModel& model, double start);
 
-  // In the order of time.
-  void look_at(const State& state);
-  // Whether what has been looked at is a period at least and a good part of the time since the start; it is then to be
-  // taken in, or skipped.
+  // Adds a state to the window. Call with states in ascending time.
+  void observe(const State& state);
+  // True if the window of observed states spans at least one period, and at least a quarter of the time elapsed before
+  // the window. Then call integrate_window() or discard_window().
   bool is_full() const;
-  void take_in(Linearity& linearity);  // throws RunError where the stiffness cannot be factorised
-  void skip();
+  void integrate_window(Linearity& linearity);  // advances e; throws RunError if the stiffness cannot be factorised
+  void discard_window();
 
-  // The largest so far, in the mass norm; with what has been looked at since it was taken in last.
+  // The largest e so far, sqrt(kg) m. error() leaves out the present window, error_with_window() includes it.
   double error() const { return largest_error_; }
-  double error_now(Linearity& linearity) const;
+  double error_with_window(Linearity& linearity) const;
 
   void save(Archive& archive) const;
   void restore(const Archive& archive);
 
  private:
   struct Window {
-    double duration = 0, swings = 0, velocities = 0;  // s; integrals of (q - mean) . M (q - mean) and v . M v
-    double t = 0, square = 0;  // s, of the farthest state from the mean so far, and how far that was
+    double duration = 0, swings = 0, velocities = 0;  // s; integrals of (q-mean)^T M (q-mean) and v^T M v
+    double t = 0, square = 0;                         // of `farthest`: time (s), (q-mean)^T M (q-mean)
     Vector mean, farthest;
   };
   Window empty() const;
-  double product(const Vector& x) const;  // x . M x
-  double frequency() const;               // rad/s, of the motion in this window
+  double frequency() const;  // of the motion in this window, rad/s
 
   const FemModel& model_;
   double start_, time_;  // s
   Window window_;
-  double error_ = 0, largest_error_ = 0;  // now, and the largest so far
+  double error_ = 0, largest_error_ = 0;  // e at the start of the window, and the largest so far
 };
 
 }  // namespace orthodyn

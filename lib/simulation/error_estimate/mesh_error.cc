@@ -8,7 +8,7 @@ namespace orthodyn {
 namespace {
 
 constexpr std::size_t kStates = 8;
-constexpr double kDeformed = 1e-6;  // elastic against kinetic energy: less is of a body that moves as a rigid one
+constexpr double kDeformed = 1e-6;  // elastic over kinetic energy; less is a rigid-body motion
 
 }  // namespace
 
@@ -17,10 +17,10 @@ MeshErrorRecorder::MeshErrorRecorder(std::size_t outputs)
 
 void MeshErrorRecorder::on_output(const ObservedState& observed) {
   ++seen_;
-  if (seen_ % stride_ == 0 || seen_ == outputs_) look_at(observed);
+  if (seen_ % stride_ == 0 || seen_ == outputs_) observe(observed);
 }
 
-void MeshErrorRecorder::look_at(const ObservedState& observed) {
+void MeshErrorRecorder::observe(const ObservedState& observed) {
   const auto energy = observed.evaluate("energy.mesh_error");
   if (!std::isfinite(energy[0]) || !std::isfinite(energy[1])) return;  // inverted elements
   error_ += energy[0];

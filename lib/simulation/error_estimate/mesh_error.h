@@ -1,7 +1,7 @@
-// How far the mesh puts a run off: the share of the elastic energy that the error takes. By finer elements
-// (estimated_error.h) in the state that is deformed the most, or by recovered stresses (lib/fem/stress_recovery.h) over
-// some states of the run. As the energy of a body under given loads, its deflections are
-// too small by about that share where they follow the loads slowly, and natural frequencies too high by half of it.
+// Mesh error of a run: E / (E + computed elastic energy) with the elastic energy E of the error. E is estimated by
+// finer elements (estimated_error.h) in the most deformed state, or by recovered stresses (lib/fem/stress_recovery.h)
+// in several states. For loads that change slowly, deflections are too small by about this relative error, and natural
+// frequencies are too high by half of it.
 #pragma once
 
 #include <optional>
@@ -12,50 +12,50 @@
 
 namespace orthodyn {
 
-// From this share of the elastic energy on a mesh is called coarse.
+// A mesh with a larger relative error is reported as coarse.
 inline constexpr double kCoarseMesh = 0.05;
 
-// Error by the mesh of a field that a probe records, other than displacement and velocity; `scale` and `error` as in
-// FieldError.
+// Mesh error of a probed field other than displacement and velocity; `scale` and `error` as in FieldError.
 struct ProbedError {
   std::string probe, field, unit;
   double scale = 0, error = 0;
   double share() const { return scale > 0 ? error / scale : 0; }
 };
 
-// Above this relative error of a probed stress or strain the mesh is reported as coarse.
+// A mesh with a larger relative error of a probed stress or strain is reported as coarse.
 inline constexpr double kCoarseStress = 0.1;
 
 struct MeshError {
-  double relative = 0;                   // of the elastic energy
-  int samples = 0;                       // states that were looked at
+  double relative = 0;                   // E / (E + computed elastic energy)
+  int samples = 0;                       // states evaluated
   bool by_finer_elements = false;        // else by recovered stresses
-  std::string blind = {};                // what the estimate may not see, and what to do, in a sentence; "" if nothing
-  double cpu_seconds = 0;                // that the finer elements took
-  std::vector<ProbedError> probed = {};  // by finer elements; empty without these
-  bool probed_unknown = false;           // probes record such fields, and no error is known of them
+  std::string locking_risk = {};         // locking that the estimate may miss, and a remedy; or ""
+  double cpu_seconds = 0;                // for the finer elements
+  std::vector<ProbedError> probed = {};  // empty without finer elements
+  bool probed_unknown = false;           // fields are probed, but their errors are unknown
 };
 
 class MeshErrorRecorder : public Observer {
  public:
-  // Looks at some of this many outputs, and the last one.
+  // Evaluates at most 8 of the `outputs` outputs, including the last.
   explicit MeshErrorRecorder(std::size_t outputs);
   void on_output(const ObservedState& observed) override;
 
-  // Of one state, beside the outputs.
-  void look_at(const ObservedState& observed);
+  // Evaluates a state other than an output.
+  void observe(const ObservedState& observed);
 
-  // None where nothing was deformed to speak of.
+  // The mesh error by recovered stresses. Empty if the elastic energy is at most 1e-6 of the kinetic energy, as in a
+  // rigid-body motion; both are summed over the evaluated states.
   std::optional<MeshError> found() const;
 
-  // Of those that were looked at the one of the largest elastic energy.
+  // The evaluated state with the largest elastic energy.
   const std::optional<State>& most_deformed() const { return most_deformed_; }
 
  private:
   std::size_t outputs_, stride_, seen_ = 0;
-  double error_ = 0, elastic_ = 0, kinetic_ = 0;  // J, sums
+  double error_ = 0, elastic_ = 0, kinetic_ = 0;  // sums, J
   int samples_ = 0;
-  double largest_ = 0;  // J, elastic
+  double largest_ = 0;  // elastic energy, J
   std::optional<State> most_deformed_;
 };
 

@@ -11,11 +11,11 @@ namespace orthodyn {
 namespace {
 
 constexpr int kLargest = 2000;
-constexpr double kCoupling = 1e-9;  // of the largest modal damping
-constexpr double kRigid = 1e-12;    // of the largest eigenvalue: zero but for round-off
-constexpr double kHidden = 1e-8;    // of the largest eigenvalue: too near to round-off
+constexpr double kCoupling = 1e-9;  // coupling over the largest modal damping
+constexpr double kRigid = 1e-12;    // eigenvalue over the largest one: below it, a rigid mode
+constexpr double kHidden = 1e-8;    // eigenvalue over the largest one: below it, too close to round-off
 
-// Of a model with a symmetric pattern.
+// Dense matrix of a model with a symmetric pattern.
 Eigen::MatrixXd dense(const Model& model, const Linearization& at, const Weights& weights) {
   const Pattern& pattern = model.pattern();
   std::vector<double> values(pattern.row.size());
@@ -28,7 +28,7 @@ struct Coordinate {
   double q, v;
 };
 
-// q'' + d q' + lambda q = f after a time t.
+// Solution of q'' + d q' + lambda q = f after a time t.
 Coordinate oscillate(double lambda, double d, double f, Coordinate start, double t) {
   const double s = d / 2, rest = f / lambda, a = start.q - rest;
   const double discriminant = lambda - s * s;
@@ -37,7 +37,7 @@ Coordinate oscillate(double lambda, double d, double f, Coordinate start, double
     const double decay = std::exp(-s * t), c = std::cos(w * t), n = std::sin(w * t);
     return {rest + decay * (a * c + b * n), decay * ((w * b - s * a) * c - (w * a + s * b) * n)};
   }
-  // Two decays; written so that equal ones are no division by zero.
+  // Overdamped; written so that equal roots cause no division by zero.
   const double r = std::sqrt(-discriminant), b = start.v + s * a;
   const double sinh_over_r = r * t < 1e-9 ? t * std::exp(-s * t)
                              : r * t < 1  ? std::exp(-s * t) * std::sinh(r * t) / r
@@ -46,14 +46,14 @@ Coordinate oscillate(double lambda, double d, double f, Coordinate start, double
   return {rest + a * cosh + b * sinh_over_r, b * cosh - s * a * cosh + (r * r * a - s * b) * sinh_over_r};
 }
 
-// (1 - exp(-x)) / x and (1 - that) / x, without cancellation.
+// phi_1 = (1 - exp(-x)) / x and phi_2 = (1 - phi_1) / x, without cancellation.
 double phi_1(double x) { return x == 0 ? 1 : -std::expm1(-x) / x; }
 double phi_2(double x) {
   if (std::abs(x) > 0.01) return (1 - phi_1(x)) / x;
   return 1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x / 720)));
 }
 
-// q'' + d q' = f after a time t.
+// Solution of q'' + d q' = f after a time t.
 Coordinate drift_away(double d, double f, Coordinate start, double t) {
   const double x = d * t;
   return {start.q + start.v * t * phi_1(x) + f * t * t * phi_2(x), start.v * std::exp(-x) + f * t * phi_1(x)};

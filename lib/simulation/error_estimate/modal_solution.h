@@ -1,5 +1,6 @@
-// The exact solution of a linear model under constant loads, by its modes: K phi = lambda M phi, and
-// each coordinate q'' + d q' + lambda q = f in closed form.
+// Exact solution of a linear model under constant loads by modal superposition. The modes phi satisfy
+// K phi = lambda M phi. Each mode's coordinate q satisfies q'' + d q' + lambda q = f with the modal damping d and load
+// f, and is computed in closed form; a prime is a time derivative.
 #pragma once
 
 #include <optional>
@@ -10,15 +11,15 @@ namespace orthodyn {
 
 class ModalSolution {
  public:
-  // Nothing if the model has no such solution: not linear, loads that vary in time, damping that couples
-  // the modes, more than 2,000 unknowns (the eigenproblem is dense), or modes so much slower than the
-  // fastest (1e4 times) that round-off hides their frequencies.
+  // Empty if the model is not linear, has time-dependent loads, an unsymmetric tangent, damping that couples modes or
+  // more than 2,000 unknowns (the eigenproblem is dense). Also empty if an elastic mode is slower than the fastest mode
+  // by a factor of 1e4 or more, because round-off hides its frequency.
   static std::optional<ModalSolution> find(const Model& model, const State& initial);
 
   State at(double t) const;
 
-  // What round-off may do to it up to a time, relative: the phase of the slowest mode, whose eigenvalue is
-  // known to eps of the largest.
+  // Relative error at time t due to round-off: the phase error of the slowest elastic mode, whose eigenvalue has an
+  // error of eps times the largest eigenvalue.
   double round_off(double t) const;
 
  private:

@@ -12,8 +12,8 @@ namespace orthodyn {
 
 namespace {
 
-// A file is the mark, N, the components of quantities, the number of times, the fingerprint of what follows, then
-// times, q, v and quantities as doubles of this machine.
+// File format: mark, N, components of quantities, number of times, fingerprint of the rest, then times, q, v and
+// quantities as native doubles.
 constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '3'};
 struct Head {
   char mark[8];
@@ -26,7 +26,7 @@ std::string bytes(const T* data, std::size_t count) {
   return {reinterpret_cast<const char*>(data), count * sizeof(T)};
 }
 
-// Times, q, v and quantities, one after the other; empty if the file is not as it was written.
+// Times, q, v and quantities in sequence; empty if the file is damaged.
 std::vector<double> numbers_in(const std::filesystem::path& path, Head& head) {
   std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(&head), sizeof head);
@@ -66,36 +66,13 @@ bool Trajectory::is_whole(const std::filesystem::path& path) {
 Trajectory Trajectory::load(const std::filesystem::path& path) {
   Head head{};
   const std::vector<double> numbers = numbers_in(path, head);
-  if (numbers.empty()) throw RunError(path.string() + ": is no trajectory, or damaged; start the comparison again");
+  if (numbers.empty()) throw RunError(path.string() + ": is not a trajectory, or damaged; start the comparison again");
   const auto size = static_cast<std::ptrdiff_t>(head.unknowns * head.times);
   const double* at = numbers.data() + head.times;
   return {{numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(head.times)},
           Eigen::Map<const Eigen::MatrixXd>(at, head.unknowns, head.times),
           Eigen::Map<const Eigen::MatrixXd>(at + size, head.unknowns, head.times),
           Eigen::Map<const Eigen::MatrixXd>(at + 2 * size, head.components, head.times)};
-}
-
-void TrajectoryRecorder::on_start(const ObservedState& observed) {
-  const State state = state_of(observed);
-  const auto columns = static_cast<Eigen::Index>(outputs_) + 1;
-  Eigen::Index components = 0;
-  for (const auto& quantity : quantities_) components += quantity.components();
-  trajectory_ = {{},
-                 Eigen::MatrixXd::Zero(state.q.size(), columns),
-                 Eigen::MatrixXd::Zero(state.v.size(), columns),
-                 Eigen::MatrixXd::Zero(components, columns)};
-  on_output(observed);
-}
-
-void TrajectoryRecorder::on_output(const ObservedState& observed) {
-  const State state = state_of(observed);
-  const auto k = static_cast<Eigen::Index>(trajectory_.times.size());
-  trajectory_.times.push_back(state.t);
-  trajectory_.q.col(k) = state.q;
-  trajectory_.v.col(k) = state.v;
-  Eigen::Index row = 0;
-  for (const auto& quantity : quantities_)
-    for (const double value : quantity.values(observed)) trajectory_.quantities(row++, k) = value;
 }
 
 }  // namespace orthodyn

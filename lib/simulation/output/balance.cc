@@ -7,18 +7,18 @@ namespace orthodyn {
 
 namespace {
 
-// To the larger of the two; NaN stays.
+// Raises `largest` to `value`; keeps NaN.
 void raise(double& largest, double value) {
   if (!(value <= largest) && !std::isnan(largest)) largest = value;
 }
 
-std::vector<double> kept(const EnergyBalance& e) {
+std::vector<double> archived(const EnergyBalance& e) {
   return {e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads};
 }
 
 EnergyBalance balance_from(const std::vector<double>& e) { return {e[0], e[1], e[2], e[3], e[4]}; }
 
-std::vector<double> kept(const Vec3& x) { return {x[0], x[1], x[2]}; }
+std::vector<double> archived(const Vec3& x) { return {x[0], x[1], x[2]}; }
 
 Vec3 vector_from(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 
@@ -29,24 +29,24 @@ EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator, Energ
 
 void EnergyMeter::on_start(const ObservedState& observed) {
   powers_time_ = observed.t();
-  take_energies(observed);
+  evaluate_energies(observed);
   first_ = last_;
   drift_ = 0;
 }
 
 void EnergyMeter::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
-  if (times_ == EnergyTimes::steps) return look(observed);
+  if (times_ == EnergyTimes::steps) return observe(observed);
   advance_powers(observed.t());
-  // Outputs may all fall on moments of little energy.
+  // Evaluated at each step, because all outputs may fall on times of little kinetic energy.
   scale_ = std::max(scale_, observed.evaluate("energy.kinetic")[0]);
 }
 
-void EnergyMeter::look(const ObservedState& observed) {
+void EnergyMeter::observe(const ObservedState& observed) {
   advance_powers(observed.t());
-  take_energies(observed);
+  evaluate_energies(observed);
 }
 
-void EnergyMeter::take_energies(const ObservedState& observed) {
+void EnergyMeter::evaluate_energies(const ObservedState& observed) {
   const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
   ++states_;
   time_ = observed.t();
@@ -65,10 +65,10 @@ void EnergyMeter::advance_powers(double t) {
   for (double done = 0; done < h - part / 2; done += part) add_work(begin + done, part);
 }
 
-// By Gauss' two points, along the cubic through the positions there and at the ends. Never with the velocities of
-// states: those of stiff methods are off by their tolerance where the body is stiffest, and damping, with the square of
-// that, would dissipate what the energies of the positions never lost. Never with states at the ends, where velocities
-// of supports may jump.
+// Two-point Gauss quadrature along the cubic through the positions at the Gauss points and at both ends. Velocities are
+// derivatives of the cubic, not those of the integrator: velocities of stiff methods are inaccurate, within the
+// tolerance, in the stiffest modes, and the dissipation computed from their squares would exceed the energy lost.
+// Powers are not evaluated at the ends, where velocities of supports may jump.
 void EnergyMeter::add_work(double begin, double duration) {
   const double root = std::sqrt(3.0), early = (1 - 1 / root) / 2;
   State first, last, at[2];
@@ -88,10 +88,18 @@ void EnergyMeter::add_powers(const State& at, double duration) {
   if (model_.traits().loaded) load_work_ += duration * observed.evaluate("power.loads")[0];
 }
 
+std::vector<std::string> EnergyMeter::columns() {
+  return {"t [s]", "kinetic [J]", "elastic [J]", "gravitational [J]", "dissipated [J]", "loads [J]", "balance [J]"};
+}
+
+std::vector<double> EnergyMeter::row(double t) const {
+  return {t, last_.kinetic, last_.elastic, last_.gravitational, last_.dissipated, last_.loads, change()};
+}
+
 void EnergyMeter::save(Archive& archive) {
   archive.put("powers", {powers_time_, dissipated_, load_work_});
-  archive.put("first", kept(first_));
-  archive.put("last", kept(last_));
+  archive.put("first", archived(first_));
+  archive.put("last", archived(last_));
   archive.put("time", time_);
   archive.put("drift", drift_);
   archive.put("scale", scale_);
@@ -110,13 +118,13 @@ void EnergyMeter::restore(const Archive& archive) {
 }
 
 void MomentumMeter::on_start(const ObservedState& observed) {
-  look(observed);
+  observe(observed);
   first_linear_ = linear_;
   first_angular_ = angular_;
   linear_drift_ = angular_drift_ = 0;
 }
 
-void MomentumMeter::look(const ObservedState& observed) {
+void MomentumMeter::observe(const ObservedState& observed) {
   const auto vector = [&](const char* name) {
     const auto values = observed.evaluate(name);
     return Vec3(values[0], values[1], values[2]);
@@ -127,11 +135,25 @@ void MomentumMeter::look(const ObservedState& observed) {
   raise(angular_drift_, (angular_ - first_angular_).norm());
 }
 
+std::vector<std::string> MomentumMeter::columns() {
+  return {"t [s]",
+          "linear.x [kg m/s]",
+          "linear.y [kg m/s]",
+          "linear.z [kg m/s]",
+          "angular.x [kg m^2/s]",
+          "angular.y [kg m^2/s]",
+          "angular.z [kg m^2/s]"};
+}
+
+std::vector<double> MomentumMeter::row(double t) const {
+  return {t, linear_[0], linear_[1], linear_[2], angular_[0], angular_[1], angular_[2]};
+}
+
 void MomentumMeter::save(Archive& archive) {
-  archive.put("linear", kept(linear_));
-  archive.put("angular", kept(angular_));
-  archive.put("first_linear", kept(first_linear_));
-  archive.put("first_angular", kept(first_angular_));
+  archive.put("linear", archived(linear_));
+  archive.put("angular", archived(angular_));
+  archive.put("first_linear", archived(first_linear_));
+  archive.put("first_angular", archived(first_angular_));
   archive.put("linear_drift", linear_drift_);
   archive.put("angular_drift", angular_drift_);
 }
@@ -157,7 +179,7 @@ void InversionWatch::restore(const Archive& archive) {
   element_ = static_cast<int>(archive.count("element"));
 }
 
-void InversionWatch::look(const ObservedState& observed) {
+void InversionWatch::observe(const ObservedState& observed) {
   const auto now = observed.evaluate("det_f.smallest");
   if (element_ >= 0 && now[0] >= smallest_) return;
   smallest_ = now[0];

@@ -7,70 +7,8 @@
 
 namespace orthodyn {
 
-EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator,
-                           EnergyTimes times)
-    : EnergyMeter(model, integrator, times),
-      file_(path, {"t [s]", "kinetic [J]", "elastic [J]", "gravitational [J]", "dissipated [J]", "loads [J]",
-                   "balance [J]"}) {}
-
-void EnergyWriter::on_start(const ObservedState& observed) {
-  EnergyMeter::on_start(observed);
-  file_.begin();
-  write(observed.t());
-}
-
-void EnergyWriter::on_history(const ObservedState& observed) {
-  EnergyMeter::on_output(observed);
-  write(observed.t());
-}
-
-void EnergyWriter::save(Archive& archive) {
-  EnergyMeter::save(archive);
-  file_.save(archive);
-}
-
-void EnergyWriter::restore(const Archive& archive) {
-  EnergyMeter::restore(archive);
-  file_.restore(archive);
-}
-
-void EnergyWriter::write(double t) {
-  const auto& e = last();
-  file_.row({t, e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads, change()});
-}
-
-MomentumWriter::MomentumWriter(const std::filesystem::path& path)
-    : file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]", "angular.x [kg m^2/s]",
-                   "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
-
-void MomentumWriter::on_start(const ObservedState& observed) {
-  MomentumMeter::on_start(observed);
-  file_.begin();
-  write(observed.t());
-}
-
-void MomentumWriter::on_history(const ObservedState& observed) {
-  MomentumMeter::on_output(observed);
-  write(observed.t());
-}
-
-void MomentumWriter::save(Archive& archive) {
-  MomentumMeter::save(archive);
-  file_.save(archive);
-}
-
-void MomentumWriter::restore(const Archive& archive) {
-  MomentumMeter::restore(archive);
-  file_.restore(archive);
-}
-
-void MomentumWriter::write(double t) {
-  const Vec3 &p = linear(), &l = angular();
-  file_.row({t, p[0], p[1], p[2], l[0], l[1], l[2]});
-}
-
 StepWriter::StepWriter(const std::filesystem::path& path)
-    : file_(path, {"t [s]", "h [s]", "order", "newton_iterations", "rejected"}) {}
+    : TableWriter(path, {"t [s]", "h [s]", "order", "newton_iterations", "rejected"}) {}
 
 void StepWriter::on_step(const StepInfo& info, const ObservedState&, const Integrator& integrator) {
   const Statistics now = integrator.statistics();
@@ -109,14 +47,14 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
 
 ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
                          const std::string& axis)
-    : columns_(with_components(model, std::move(columns))), file_(path, probe_header(model, columns_, axis)) {}
+    : TableWriter(path, probe_header(model, columns, axis)), columns_(with_components(model, std::move(columns))) {}
 
 void ProbeWriter::on_start(const ObservedState& observed) {
-  file_.begin();
-  record(observed);
+  TableWriter::on_start(observed);
+  on_history(observed);
 }
 
-void ProbeWriter::record(const ObservedState& observed) {
+void ProbeWriter::on_history(const ObservedState& observed) {
   std::map<std::string, std::vector<double>> fields;
   std::vector<double> row{observed.t()};
   for (const auto& column : columns_) {
@@ -126,6 +64,24 @@ void ProbeWriter::record(const ObservedState& observed) {
     row.insert(row.end(), first, first + column.components);
   }
   file_.row(row);
+}
+
+EventWriter::EventWriter(const std::filesystem::path& path, EventFinder& finder)
+    : TableWriter(path, {"t [s]", "event", "value", "direction"}), finder_(finder) {}
+
+void EventWriter::on_event(const Crossing& crossing) {
+  file_.append(fmt::format("{},{},{},{}\n", crossing.state.t, crossing.event->name, crossing.event->value,
+                           crossing.upward ? "up" : "down"));
+}
+
+void EventWriter::save(Archive& archive) {
+  TableWriter::save(archive);
+  finder_.save(archive);
+}
+
+void EventWriter::restore(const Archive& archive) {
+  TableWriter::restore(archive);
+  finder_.restore(archive);
 }
 
 }  // namespace orthodyn

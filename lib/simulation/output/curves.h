@@ -1,86 +1,108 @@
-// Curves over time as CSV: energies, momenta and probes by the history, steps. Headers name the units. Files are made
-// when a run starts.
+// CSV tables of a run: energies, momenta and probes at the times of the history, steps, and events. The first line
+// names the columns with their units. Files are created when a run starts.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/simulation/output/balance.h"
+#include "lib/simulation/output/event_finder.h"
 #include "lib/simulation/output/files.h"
 
 namespace orthodyn {
 
-// energy.csv, its balance relative to the start (zero when exact); also the figures of the summary.
-class EnergyWriter : public EnergyMeter {
+// Base of observers that write one table.
+class TableWriter : public Observer {
  public:
-  EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator, EnergyTimes times);
-  void on_start(const ObservedState& observed) override;
-  void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_output(const ObservedState&) override {}
-  void on_history(const ObservedState& observed) override;
-  void save(Archive& archive) override;
-  void restore(const Archive& archive) override;
-
- private:
-  void write(double t);
-  CsvFile file_;
-};
-
-// momentum.csv.
-class MomentumWriter : public MomentumMeter {
- public:
-  explicit MomentumWriter(const std::filesystem::path& path);
-  void on_start(const ObservedState& observed) override;
-  void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_output(const ObservedState&) override {}
-  void on_history(const ObservedState& observed) override;
-  void save(Archive& archive) override;
-  void restore(const Archive& archive) override;
-
- private:
-  void write(double t);
-  CsvFile file_;
-};
-
-// steps.csv: t, h, order, Newton iterations and rejections of each step.
-class StepWriter : public Observer {
- public:
-  explicit StepWriter(const std::filesystem::path& path);
   void on_start(const ObservedState&) override { file_.begin(); }
-  void on_resume(const ObservedState&) override { file_.go_on(); }
+  void on_resume(const ObservedState&) override { file_.reopen(); }
   void save(Archive& archive) override { file_.save(archive); }
   void restore(const Archive& archive) override { file_.restore(archive); }
+
+ protected:
+  TableWriter(const std::filesystem::path& path, const std::vector<std::string>& header) : file_(path, header) {}
+
+  CsvFile file_;
+};
+
+// Writes the values of a meter: at the start, and at each time of the history.
+template <class Meter>
+class MeterWriter : public Meter {
+ public:
+  template <class... Arguments>
+  explicit MeterWriter(const std::filesystem::path& path, Arguments&&... meter)
+      : Meter(std::forward<Arguments>(meter)...), file_(path, Meter::columns()) {}
+
+  void on_start(const ObservedState& observed) override {
+    Meter::on_start(observed);
+    file_.begin();
+    file_.row(Meter::row(observed.t()));
+  }
+  void on_resume(const ObservedState&) override { file_.reopen(); }
+  void on_output(const ObservedState&) override {}
+  void on_history(const ObservedState& observed) override {
+    Meter::on_output(observed);
+    file_.row(Meter::row(observed.t()));
+  }
+  void save(Archive& archive) override {
+    Meter::save(archive);
+    file_.save(archive);
+  }
+  void restore(const Archive& archive) override {
+    Meter::restore(archive);
+    file_.restore(archive);
+  }
+
+ private:
+  CsvFile file_;
+};
+
+using EnergyWriter = MeterWriter<EnergyMeter>;      // energy.csv
+using MomentumWriter = MeterWriter<MomentumMeter>;  // momentum.csv
+
+// steps.csv: time, step size, order, Newton iterations and rejected steps of each step.
+class StepWriter : public TableWriter {
+ public:
+  explicit StepWriter(const std::filesystem::path& path);
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
  private:
-  CsvFile file_;
-  Statistics before_;  // of this process, as the integrator's own
+  Statistics before_;  // of this process, at the previous step
 };
 
-// probes.csv: fields at named nodes.
+// A column group of probes.csv.
 struct ProbeColumn {
   std::string name;    // "tip"; empty for an output of the whole body
-  int node;            // then 0
-  std::string field;   // a node output: "displacement"; or "reaction.clamp_1"
-  int components = 0;  // of the field; filled in
+  int node;            // 0 for an output of the whole body
+  std::string field;   // a nodal output such as "displacement", or "reaction.clamp_1"
+  int components = 0;  // number of the field's components; set by ProbeWriter
 };
 
-class ProbeWriter : public Observer {
+class ProbeWriter : public TableWriter {
  public:
-  // `axis` heads the column of State::t.
+  // `axis`: header of the first column, which contains State::t.
   ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
               const std::string& axis = "t [s]");
   void on_start(const ObservedState& observed) override;
-  void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_history(const ObservedState& observed) override { record(observed); }
-  void save(Archive& archive) override { file_.save(archive); }
-  void restore(const Archive& archive) override { file_.restore(archive); }
+  void on_history(const ObservedState& observed) override;
 
  private:
-  void record(const ObservedState& observed);
   std::vector<ProbeColumn> columns_;
-  CsvFile file_;
+};
+
+// events.csv: time, name, value and direction of each event.
+class EventWriter : public TableWriter {
+ public:
+  // Also saves the state of the finder in checkpoints. `finder` must outlive the writer.
+  EventWriter(const std::filesystem::path& path, EventFinder& finder);
+  void on_event(const Crossing& crossing) override;
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
+
+ private:
+  EventFinder& finder_;
 };
 
 }  // namespace orthodyn

@@ -17,7 +17,7 @@ constexpr int kSamplesPerStep = 4;
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// The time in (a, b] at which the function, which changes its sign there, does so.
+// The root in (a, b] of a function that changes sign there.
 double root(const std::function<double(double)>& f, double a, double fa, double b, double fb) {
   if (fb == 0) return b;
   std::uintmax_t evaluations = 100;
@@ -27,7 +27,6 @@ double root(const std::function<double(double)>& f, double a, double fa, double 
   return high;
 }
 
-// Quantity less value.
 double excess(const Event& event, const ObservedState& observed) {
   const double value = event.quantity(observed);
   if (!std::isfinite(value))
@@ -71,7 +70,7 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
       const bool passed = side_[k] != 0 && sign(now.excess[k]) != side_[k];
       const bool upward = side_[k] < 0;
       if (passed && (event.direction == Direction::both || upward == (event.direction == Direction::up))) {
-        // A sign change already present at the start is treated as a crossing there.
+        // If the sign has already changed at last.t, the crossing is at last.t.
         const double at =
             sign(last.excess[k]) == side_[k] ? root(excess_at, last.t, last.excess[k], t, now.excess[k]) : last.t;
         interpolate(at, state);
@@ -84,36 +83,36 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
   std::stable_sort(found.begin(), found.end(),
                    [](const Crossing& a, const Crossing& b) { return a.state.t < b.state.t; });
   const auto stop = std::find_if(found.begin(), found.end(), [](const Crossing& c) { return c.event->stops; });
-  if (stop == found.end()) return noted(std::move(found));
+  if (stop == found.end()) return counted(std::move(found));
   found.erase(stop + 1, found.end());
-  // A run that goes on from there has not seen the rest of the step.
+  // Resets the signs to the time of the stop, because a resumed run repeats the rest of this step.
   const Sample there = sample(found.back().state.t, source, interpolate);
   for (std::size_t k = 0; k < events_.size(); ++k)
     side_[k] = &events_[k] != found.back().event ? sign(there.excess[k]) : found.back().upward ? 1 : -1;
-  return noted(std::move(found));
+  return counted(std::move(found));
 }
 
-std::vector<Crossing> EventFinder::noted(std::vector<Crossing> found) {
-  for (const Crossing& c : found) ++happened_[static_cast<std::size_t>(c.event - events_.data())];
+std::vector<Crossing> EventFinder::counted(std::vector<Crossing> found) {
+  for (const Crossing& c : found) ++occurrences_[static_cast<std::size_t>(c.event - events_.data())];
   return found;
 }
 
-std::vector<std::string> EventFinder::silent() const {
+std::vector<std::string> EventFinder::not_found() const {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < events_.size(); ++k)
-    if (happened_[k] == 0) names.push_back(events_[k].name);
+    if (occurrences_[k] == 0) names.push_back(events_[k].name);
   return names;
 }
 
 void EventFinder::save(Archive& archive) const {
   archive.put("sides", std::vector<double>(side_.begin(), side_.end()));
-  archive.put("happened", happened_);
+  archive.put("happened", occurrences_);
 }
 
 void EventFinder::restore(const Archive& archive) {
   const auto& sides = archive.numbers("sides", side_.size());
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return sign(side); });
-  happened_ = archive.numbers("happened", events_.size());
+  occurrences_ = archive.numbers("happened", events_.size());
 }
 
 }  // namespace orthodyn

@@ -1,9 +1,9 @@
-// Finds when quantities pass values within the steps of any integrator, on its dense output.
+// Finds the times at which quantities pass values, on the dense output of any integrator.
 //
-// Each step is sampled at its end and three times within; where the sign of quantity - value has changed
-// between two samples, the root between them is found to round-off (algorithm 748, Alefeld, Potra & Shi 1995).
-// Crossings there and back between two samples are missed. A quantity that has the value at the start has not passed
-// it until it was elsewhere; one that reaches the value exactly has.
+// Each step is sampled at its end and at three interior times. Where quantity - value changes sign between two samples,
+// the root is found to round-off (algorithm 748; Alefeld, Potra & Shi 1995). Two crossings between the same two samples
+// are missed. If a quantity equals the value at the start, it must first leave the value before it can pass it.
+// Reaching the value exactly counts as passing.
 #pragma once
 
 #include <functional>
@@ -19,19 +19,19 @@ class EventFinder {
   using Interpolate = std::function<void(double t, State& out)>;
 
   explicit EventFinder(std::vector<Event> events)
-      : events_(std::move(events)), side_(events_.size(), 0), happened_(events_.size(), 0) {}
+      : events_(std::move(events)), side_(events_.size(), 0), occurrences_(events_.size(), 0) {}
 
   bool empty() const { return events_.empty(); }
 
-  // At the start, or anew. Throws RunError if a quantity is not finite.
+  // Initialises at the start of a run. Throws RunError if a quantity is not finite.
   void start(const ObservedState& observed);
 
-  // Those in (begin, end], in the order of time; none after the first that stops the run. `source` is what the
-  // quantities are of.
+  // The crossings in (begin, end], in order of time, up to the first that stops the run. `source`: the model whose
+  // quantities are evaluated.
   std::vector<Crossing> find(double begin, double end, const OutputSource& source, const Interpolate& interpolate);
 
-  // The names of those that were never found so far.
-  std::vector<std::string> silent() const;
+  // Names of events that have not occurred so far.
+  std::vector<std::string> not_found() const;
 
   void save(Archive& archive) const;
   void restore(const Archive& archive);
@@ -39,14 +39,14 @@ class EventFinder {
  private:
   struct Sample {
     double t;
-    std::vector<double> excess;  // of each event's quantity over its value
+    std::vector<double> excess;  // quantity - value of each event
   };
-  std::vector<Crossing> noted(std::vector<Crossing> found);
+  std::vector<Crossing> counted(std::vector<Crossing> found);
   Sample sample(double t, const OutputSource& source, const Interpolate& interpolate) const;
 
   std::vector<Event> events_;
-  std::vector<int> side_;         // of its value, where each quantity was last seen
-  std::vector<double> happened_;  // how often each
+  std::vector<int> side_;            // sign of quantity - value at the last sample
+  std::vector<double> occurrences_;  // number of occurrences of each event
 };
 
 }  // namespace orthodyn

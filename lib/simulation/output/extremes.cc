@@ -9,22 +9,21 @@
 
 namespace orthodyn {
 
-bool is_exposure(const std::string& quantity) {
+bool is_failure_criterion(const std::string& quantity) {
   const std::string parts = "." + quantity + ".";
-  constexpr std::array kExposures{".max_stress.", ".tsai_wu.", ".hashin."};
-  return std::any_of(kExposures.begin(), kExposures.end(),
+  constexpr std::array kCriteria{".max_stress.", ".tsai_wu.", ".hashin."};
+  return std::any_of(kCriteria.begin(), kCriteria.end(),
                      [&](const char* name) { return parts.find(name) != std::string::npos; });
 }
 
 std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& extremes, bool is_static) {
   std::vector<std::string> all;
   for (const auto& e : extremes)
-    if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_exposure(e.quantity))
-      all.push_back(
-          fmt::format("{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, "
-                      "{} {:.4g}{}",
-                      e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1], e.place[2],
-                      is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
+    if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_failure_criterion(e.quantity))
+      all.push_back(fmt::format(
+          "{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, {} {:.4g}{}",
+          e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1], e.place[2],
+          is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
   return all;
 }
 
@@ -35,7 +34,7 @@ ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, con
     auto find = find_extreme(name, model, origin);
     if (!find)
       origin.fail(
-          fmt::format("extremes: '{}' is not an extreme of a field of stress or strain: give one such as "
+          fmt::format("extremes: '{}' is not an extreme of a stress or strain field; use, for example, "
                       "von_mises.largest, tsai_wu.largest or REGION.nodal_stress_material.11.smallest",
                       name));
     find_.push_back(std::move(*find));
@@ -43,7 +42,7 @@ ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, con
   }
 }
 
-void ExtremeRecorder::look_at(const ObservedState& observed) {
+void ExtremeRecorder::observe(const ObservedState& observed) {
   for (std::size_t k = 0; k < find_.size(); ++k) {
     const Extreme now = find_[k](observed);
     RecordedExtreme& found = found_[k];
@@ -64,11 +63,11 @@ void ExtremeRecorder::save(Archive& archive) {
 
 void ExtremeRecorder::restore(const Archive& archive) {
   for (auto& f : found_) {
-    const auto& kept = archive.numbers(f.quantity, 4);
-    f.value = kept[0];
-    f.time = kept[1];
-    f.node = static_cast<int>(kept[2]);
-    f.states = static_cast<long>(kept[3]);
+    const auto& saved = archive.numbers(f.quantity, 4);
+    f.value = saved[0];
+    f.time = saved[1];
+    f.node = static_cast<int>(saved[2]);
+    f.states = static_cast<long>(saved[3]);
     if (f.node >= 0) f.place = model_.parts().mesh.nodes.at(static_cast<std::size_t>(f.node));
   }
 }

@@ -1,5 +1,5 @@
-// The largest and smallest values of quantities over a run (output.extremes), each with its time and the node where it
-// was. They are looked at when the history is written.
+// Records the largest or smallest value of quantities over a run (output.extremes), with its time and node. Quantities
+// are evaluated at the times of the history.
 #pragma once
 
 #include <string>
@@ -13,32 +13,33 @@ namespace orthodyn {
 struct RecordedExtreme {
   std::string quantity, unit;
   double value = 0;
-  double time = 0;            // s; of a static analysis the load factor
-  int node = -1;              // of the mesh
-  Vec3 place = Vec3::Zero();  // its rest position, m
-  long states = 0;            // that were looked at
+  double time = 0;            // s; load factor in a static analysis
+  int node = -1;              // mesh node; -1 if there is no value
+  Vec3 place = Vec3::Zero();  // rest position of the node, m
+  long states = 0;            // number of states evaluated
 };
 
-// Whether a quantity is an exposure, max_stress, tsai_wu or hashin of a node, a region or the body, of which 1 fails.
-bool is_exposure(const std::string& quantity);
+// True for a failure criterion (max_stress, tsai_wu, hashin) of a node, a region or the body. Failure occurs at 1.
+bool is_failure_criterion(const std::string& quantity);
 
-// A sentence for each exposure that went beyond 1. Of a static analysis times are load factors.
+// One sentence for each failure criterion above 1.
 std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& extremes, bool is_static);
 
 class ExtremeRecorder : public Observer {
  public:
-  // `quantities`: such as find_extreme() takes. The model must outlive it. Throws ConfigError at `origin`.
+  // `quantities`: see find_extreme(). The model must outlive the recorder. Throws ConfigError at `origin` if one of
+  // them is not an extreme of a stress or strain field.
   ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model, const SourceLocation& origin);
 
-  void on_start(const ObservedState& observed) override { look_at(observed); }
-  void on_history(const ObservedState& observed) override { look_at(observed); }
+  void on_start(const ObservedState& observed) override { observe(observed); }
+  void on_history(const ObservedState& observed) override { observe(observed); }
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
   const std::vector<RecordedExtreme>& found() const { return found_; }
 
  private:
-  void look_at(const ObservedState& observed);
+  void observe(const ObservedState& observed);
 
   const FemModel& model_;
   std::vector<FindExtreme> find_;

@@ -15,7 +15,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr std::size_t kReserved = 16384;  // bytes beyond the first content
+constexpr std::size_t kReserved = 16384;  // bytes reserved beyond the first content
 
 Fingerprint fingerprint_of_begin(std::istream& in, std::size_t size) {
   constexpr std::size_t kPiece = 1 << 20;
@@ -71,7 +71,8 @@ void GrowingFile::begin() {
   append(head_);
 }
 
-// One call to the system, as a rule: somebody who reads, or a signal that ends us, finds the old end or the new one.
+// Normally makes one system call, so that a reader finds either the old end or the new one, even if a signal ends the
+// program.
 void GrowingFile::append(const std::string& entry) {
   write_at_end(entry + tail_);
   size_ += entry.size();
@@ -82,7 +83,7 @@ void GrowingFile::write_at_end(const std::string& text) {
   if (!writes_files()) return;
   if (write_all(file_, text, size_)) return;
   const int error = errno;
-  // Back to the end mark, for which there was room before.
+  // Restores the end mark, for which there was space before.
   if (write_all(file_, tail_, size_))
     static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) == 0);
   errno = error;
@@ -90,7 +91,7 @@ void GrowingFile::write_at_end(const std::string& text) {
 }
 
 void GrowingFile::save(Archive& archive) const {
-  make_lasting(path_);
+  sync_to_disk(path_);
   archive.put_count("bytes", size_);
   archive.put("fingerprint", print_.number());
 }
@@ -103,19 +104,20 @@ void GrowingFile::restore(const Archive& archive) {
   std::error_code ec;
   const auto found = std::filesystem::file_size(path_, ec);
   if (ec || !in)
-    throw ConfigError(path_.string(), fmt::format("cannot be read{}, but the checkpoint goes on writing to it; {}",
+    throw ConfigError(path_.string(), fmt::format("cannot be read{}, but the checkpoint continues it; {}",
                                                   ec ? " (" + ec.message() + ")" : "", kPutBack));
   if (found < size_)
-    throw ConfigError(path_.string(), fmt::format("has {} bytes, but the checkpoint knows of {}: the end is lost; {}",
-                                                  found, size_, kPutBack));
+    throw ConfigError(path_.string(),
+                      fmt::format("has {} bytes, but {} when the checkpoint was written: the end is lost; {}", found,
+                                  size_, kPutBack));
   print_ = fingerprint_of_begin(in, size_);
   if (print_.number() != archive.number("fingerprint"))
-    throw ConfigError(path_.string(), fmt::format("is damaged: its first {} bytes are not those that the checkpoint "
-                                                  "knows of; {}",
-                                                  size_, kPutBack));
+    throw ConfigError(
+        path_.string(),
+        fmt::format("is damaged: its first {} bytes have changed since the checkpoint; {}", size_, kPutBack));
 }
 
-void GrowingFile::go_on() {
+void GrowingFile::reopen() {
   open(0);
   write_at_end(tail_);
   if (!writes_files()) return;
@@ -123,8 +125,30 @@ void GrowingFile::go_on() {
 }
 
 CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
-    : file_(path, fmt::format("{}\n", fmt::join(header, ",")), "") {}
+    : GrowingFile(path, fmt::format("{}\n", fmt::join(header, ",")), "") {}
 
-void CsvFile::row(const std::vector<double>& values) { file_.append(fmt::format("{}\n", fmt::join(values, ","))); }
+void CsvFile::row(const std::vector<double>& values) { append(fmt::format("{}\n", fmt::join(values, ","))); }
+
+PvdFile::PvdFile(const std::filesystem::path& path)
+    : GrowingFile(path, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
+                  "</Collection>\n</VTKFile>\n") {}
+
+void PvdFile::add(double time, const std::string& file) {
+  append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file));
+}
+
+DiskReserve::DiskReserve(const std::filesystem::path& folder, std::size_t bytes) {
+  if (!writes_files()) return;
+  std::string name = (folder / "reserve.XXXXXX").string();
+  file_ = mkostemp(name.data(), O_CLOEXEC);
+  if (file_ < 0) return;
+  unlink(name.c_str());
+  if (posix_fallocate(file_, 0, static_cast<off_t>(bytes)) != 0) release();
+}
+
+void DiskReserve::release() {
+  if (file_ >= 0) close(file_);
+  file_ = -1;
+}
 
 }  // namespace orthodyn

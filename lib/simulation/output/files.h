@@ -1,4 +1,4 @@
-// Output files that say so when they cannot be written. All throw RunError.
+// Output files. All functions throw RunError, with the file and the reason, if a file cannot be written.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace orthodyn {
 
-// A small file that can be rewritten although the disk is full: the first write reserves room.
+// A small file that can be rewritten when the disk is full: the first write reserves space.
 class ReservedFile {
  public:
   ReservedFile(std::filesystem::path path, const std::string& content);
@@ -20,11 +20,11 @@ class ReservedFile {
 
  private:
   std::filesystem::path path_;
-  std::size_t room_;  // bytes
+  std::size_t room_;  // reserved size, bytes
 };
 
-// A file to which entries are appended, and which is whole after each of them: an end mark may follow
-// the last entry and is overwritten by the next. Nothing is touched before begin() or go_on().
+// A file to which entries are appended and which is valid after each of them. An end mark may follow the last entry;
+// the next entry overwrites it. The file is not touched before begin() or reopen().
 class GrowingFile {
  public:
   GrowingFile(std::filesystem::path path, std::string head, std::string tail);
@@ -33,15 +33,15 @@ class GrowingFile {
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   void begin();
-  // In one piece, and before the next call returns in the file.
+  // The entry is written in one piece, and is in the file when the call returns.
   void append(const std::string& entry);
 
-  // Its length and fingerprint without the end mark, for a checkpoint; what was written is on the disk afterwards.
+  // Syncs the file to the disk, and saves its length and fingerprint, without the end mark, in a checkpoint.
   void save(Archive& archive) const;
-  // Throws ConfigError if the file does not begin with what save() knew of.
+  // Throws ConfigError if the file does not start with the content at the time of save().
   void restore(const Archive& archive);
-  // After restore(): opens what an earlier process has written and cuts it down to what save() knew of.
-  void go_on();
+  // After restore(): opens the file of an earlier process and truncates it to the saved length.
+  void reopen();
 
  private:
   void open(int flags);
@@ -51,26 +51,42 @@ class GrowingFile {
   std::string head_, tail_;
   int file_ = -1;
   std::size_t size_ = 0;  // bytes without the end mark
-  Fingerprint print_;     // of these
+  Fingerprint print_;     // fingerprint of these bytes
 };
 
-// What to do where results are not as a checkpoint knows them.
-inline constexpr const char* kPutBack = "put it back, or start anew with --force in place of --resume";
+// Remedy if a file does not match the checkpoint.
+inline constexpr const char* kPutBack = "put it back, or start anew with --force instead of --resume";
 
-// A CSV file whose rows are in the file as soon as they are written.
-class CsvFile {
+// A CSV file. Each row is in the file when row() returns.
+class CsvFile : public GrowingFile {
  public:
   CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header);
-  void begin() { file_.begin(); }
   void row(const std::vector<double>& values);
+};
 
-  // As a GrowingFile.
-  void save(Archive& archive) const { file_.save(archive); }
-  void restore(const Archive& archive) { file_.restore(archive); }
-  void go_on() { file_.go_on(); }
+// A .pvd collection for ParaView: .vtu files by time.
+class PvdFile : public GrowingFile {
+ public:
+  explicit PvdFile(const std::filesystem::path& path);
+  // `file`: relative to the folder of the collection.
+  void add(double time, const std::string& file);
+};
+
+// Disk space kept free for files that must still be written when the disk is full.
+class DiskReserve {
+ public:
+  // Reserves space in a folder by an unnamed file, which vanishes however the program ends. Reserves nothing if there
+  // is not enough space.
+  DiskReserve(const std::filesystem::path& folder, std::size_t bytes);
+  ~DiskReserve() { release(); }
+  DiskReserve(const DiskReserve&) = delete;
+  DiskReserve& operator=(const DiskReserve&) = delete;
+
+  // Frees the space.
+  void release();
 
  private:
-  GrowingFile file_;
+  int file_ = -1;
 };
 
 }  // namespace orthodyn

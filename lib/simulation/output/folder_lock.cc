@@ -14,7 +14,7 @@ namespace orthodyn {
 
 namespace {
 
-// A disk that is full or broken is no fault of whoever named the folder.
+// Throws RunError for a full or broken disk, which is not an input error, else ConfigError.
 [[noreturn]] void refuse(const std::filesystem::path& folder, int error) {
   const std::string what = fmt::format("cannot write there: {}", std::strerror(error));
   if (error == ENOSPC || error == EDQUOT || error == EIO) throw RunError(fmt::format("{}: {}", folder.string(), what));
@@ -29,9 +29,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& f
   std::filesystem::create_directories(folder, ec);
   if (!ec) file_ = open((folder / file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0) refuse(folder, ec ? ec.value() : errno);
-  if (flock(file_, (sharing == Sharing::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
+  if (flock(file_, (sharing == Sharing::exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) {
-    warning_ = fmt::format("{}: cannot be locked ({}); start nothing else there meanwhile", folder.string(),
+    warning_ = fmt::format("{}: cannot be locked ({}); do not start another program there meanwhile", folder.string(),
                            std::strerror(errno));
     return;
   }

@@ -1,5 +1,5 @@
-// Keeps a folder to one process at a time, or to several of one kind, for as long as it lives; a process that is killed
-// lets go too.
+// Locks a folder for one process, or for several of one kind, during the lifetime of the lock. A killed process
+// releases its lock.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,16 @@
 
 namespace orthodyn {
 
-enum class Sharing { alone, with_its_like };
+enum class Sharing { exclusive, shared };
 
 class FolderLock {
  public:
-  // Makes the folder, and in it the file that is locked (flock), which stays: it must never be renamed or
-  // replaced. Throws ConfigError if another process holds it ("another <work> is at work there") or the folder
-  // cannot be written to, RunError if the disk is full or broken. Where the file system has no locks, it holds nothing,
-  // and warning() says so.
+  // Creates the folder and, in it, the lock file (flock). The file must never be renamed or replaced, and remains when
+  // the lock is released. Throws ConfigError if another process holds the lock ("another <work> is at work there") or
+  // the folder is not writable, RunError if the disk is full or broken. On a file system without locks, nothing is
+  // locked and warning() says so.
   FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work,
-             Sharing sharing = Sharing::alone);
+             Sharing sharing = Sharing::exclusive);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -69,12 +69,7 @@ void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std:
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
                          const TetMesh* mesh)
-    : folder_(std::move(folder)),
-      model_(model),
-      mesh_(mesh),
-      collection_(folder_ / "frames.pvd",
-                  "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
-                  "</Collection>\n</VTKFile>\n") {
+    : folder_(std::move(folder)), model_(model), mesh_(mesh), collection_(folder_ / "frames.pvd") {
   for (const auto& info : model.outputs())
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
 }
@@ -93,9 +88,8 @@ void FrameWriter::write(const ObservedState& observed) {
   const auto text = vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32, mesh_), VtuStorage::raw);
   write_file(path, text);
   try {
-    collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", observed.t(),
-                                   path.filename().string()));
-  } catch (const RunError&) {  // no frame without its time
+    collection_.add(observed.t(), "frames/" + path.filename().string());
+  } catch (const RunError&) {  // a frame must not be left without its time in frames.pvd
     std::error_code ignored;
     fs::remove(path, ignored);
     throw;
@@ -112,9 +106,9 @@ void FrameWriter::on_start(const ObservedState& observed) {
 }
 
 void FrameWriter::save(Archive& archive) {
-  const bool any_new = lasting_ < frames_;
-  for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
-  if (any_new) make_lasting(folder_ / "frames");  // their names
+  const bool any_new = synced_ < frames_;
+  for (; synced_ < frames_; ++synced_) sync_to_disk(frame(synced_));
+  if (any_new) sync_to_disk(folder_ / "frames");  // so that the file names are on the disk, too
   collection_.save(archive);
   archive.put_count("frames", frames_);
   archive.put("fingerprints", prints_);
@@ -122,25 +116,26 @@ void FrameWriter::save(Archive& archive) {
 
 void FrameWriter::restore(const Archive& archive) {
   collection_.restore(archive);
-  frames_ = lasting_ = archive.count("frames");
+  frames_ = synced_ = archive.count("frames");
   prints_ = archive.numbers("fingerprints", frames_);
   for (std::size_t k = 0; k < frames_ && writes_files(); ++k) {
     if (std::error_code ec; !fs::exists(frame(k), ec))
-      throw ConfigError(frame(k).string(),
-                        fmt::format("is missing, but the checkpoint knows of {} frames; {}", frames_, kPutBack));
+      throw ConfigError(
+          frame(k).string(),
+          fmt::format("is missing: there were {} frames when the checkpoint was written; {}", frames_, kPutBack));
     if (fingerprint_of(frame(k)) != prints_[k])
-      throw ConfigError(frame(k).string(), fmt::format("is damaged or not of this run: its bytes are not those that "
-                                                       "the checkpoint knows of; {}",
-                                                       kPutBack));
+      throw ConfigError(
+          frame(k).string(),
+          fmt::format("is damaged or not of this run: it has changed since the checkpoint; {}", kPutBack));
   }
 }
 
 void FrameWriter::on_resume(const ObservedState&) {
-  collection_.go_on();
+  collection_.reopen();
   if (writes_files()) remove_frames_from(frames_);
 }
 
-// They are computed again. What was being written when the run was killed is removed too.
+// Removes the frames from number `count` on, which are computed again, and partial files of a killed run.
 void FrameWriter::remove_frames_from(std::size_t count) const {
   std::error_code ec;
   std::vector<fs::path> surplus;

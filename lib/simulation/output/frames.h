@@ -1,5 +1,5 @@
-// Frames for ParaView: one .vtu file per output time (appended raw binary, fields in single precision) and a .pvd with
-// the times.
+// Frames for ParaView: one .vtu file per output time (appended raw binary, fields in single precision), and a .pvd file
+// with the times.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace orthodyn {
 
-// Values of all nodes or cells, one set of `components` after the other.
+// Values at all nodes or cells, `components` for each.
 struct VtuField {
   std::string name;
   Location location;
@@ -20,15 +20,15 @@ struct VtuField {
   std::vector<double> values;
 };
 
-// Writes one .vtu file, in double precision, with the names of the regions of `mesh`, if there is one. Throws RunError.
+// Writes one .vtu file in double precision. With `mesh`, includes its region names. Throws RunError.
 void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
                const TetMesh* mesh = nullptr);
 
 class FrameWriter : public Observer {
  public:
-  // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell
-  // outputs of the model, which must outlive the writer, as must the mesh: its regions stand in each frame by number
-  // (cell data "region") and name (field data "region_names"), unless it has one and the name "body" only.
+  // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu, ... `fields`: node or cell outputs of the model.
+  // The model and the mesh must outlive the writer. With `mesh`, each frame contains the regions by number (cell data
+  // "region") and name (field data "region_names"), unless "body" is the only one.
   FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
               const TetMesh* mesh = nullptr);
 
@@ -47,9 +47,9 @@ class FrameWriter : public Observer {
   const Model& model_;
   const TetMesh* mesh_;  // null: no regions
   std::vector<OutputInfo> fields_;
-  GrowingFile collection_;
-  std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk
-  std::vector<double> prints_;            // fingerprints of the frames
+  PvdFile collection_;
+  std::size_t frames_ = 0, synced_ = 0;  // number of frames written; of frames synced to the disk
+  std::vector<double> prints_;           // fingerprints of the frames
 };
 
 }  // namespace orthodyn

@@ -1,45 +1,25 @@
 #include "lib/simulation/output/json.h"
 
+#include <string_view>
+
 namespace orthodyn {
 
-namespace {
-
-Json to_json(const Cost& cost) { return {{"count", cost.count}, {"seconds", cost.seconds}}; }
-
-Cost cost_from(const Json& json) { return {json.at("count"), json.at("seconds")}; }
-
-}  // namespace
-
-Json to_json(const Statistics& s) {
-  return {{"steps", s.steps},
-          {"rejected_steps", s.rejected_steps},
-          {"error_test_failures", s.error_test_failures},
-          {"convergence_failures", s.convergence_failures},
-          {"newton_iterations", s.newton_iterations},
-          {"gauss_newton_fallbacks", s.gauss_newton_fallbacks},
-          {"force", to_json(s.force)},
-          {"tangent", to_json(s.tangent)},
-          {"factorization", to_json(s.factorization)},
-          {"solve", to_json(s.solve)},
-          {"modes", to_json(s.modes)},
-          {"observation", to_json(s.observation)}};
+Json to_json(const Statistics& statistics) {
+  Json out = Json::object();
+  for (const auto& [name, count] : kStatisticsCounts) out[name] = statistics.*count;
+  for (const auto& [name, cost] : kStatisticsCosts)
+    out[name] = {{"count", (statistics.*cost).count}, {"seconds", (statistics.*cost).seconds}};
+  return out;
 }
 
 Statistics statistics_from(const Json& json) {
-  Statistics s;
-  s.steps = json.at("steps");
-  s.rejected_steps = json.at("rejected_steps");
-  s.error_test_failures = json.at("error_test_failures");
-  s.convergence_failures = json.at("convergence_failures");
-  s.newton_iterations = json.at("newton_iterations");
-  s.gauss_newton_fallbacks = json.at("gauss_newton_fallbacks");
-  s.force = cost_from(json.at("force"));
-  s.tangent = cost_from(json.at("tangent"));
-  s.factorization = cost_from(json.at("factorization"));
-  s.solve = cost_from(json.at("solve"));
-  s.modes = cost_from(json.at("modes"));
-  if (json.contains("observation")) s.observation = cost_from(json.at("observation"));  // older results have none
-  return s;
+  Statistics out;
+  for (const auto& [name, count] : kStatisticsCounts) out.*count = json.at(name);
+  for (const auto& [name, cost] : kStatisticsCosts) {
+    if (std::string_view(name) == "observation" && !json.contains(name)) continue;  // absent in older results
+    out.*cost = {json.at(name).at("count"), json.at(name).at("seconds")};
+  }
+  return out;
 }
 
 }  // namespace orthodyn

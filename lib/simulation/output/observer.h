@@ -1,5 +1,5 @@
-// An observer is called with the states of a run; it writes frames, tables or progress. Quantities computed from a
-// state are shared by all observers.
+// Observers receive the states of a run, and write frames, tables or progress. Quantities computed from a state are
+// shared by all observers.
 #pragma once
 
 #include "lib/ode/event.h"
@@ -12,33 +12,33 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  // At the initial state.
+  // Called at the initial state.
   virtual void on_start(const ObservedState&) {}
 
-  // In place of on_start where a run goes on from a checkpoint, after restore().
+  // Called instead of on_start() in a resumed run, after restore().
   virtual void on_resume(const ObservedState&) {}
 
-  // At each output time, within the last step.
+  // Called at each output time; the time lies within the last step.
   virtual void on_output(const ObservedState&) {}
 
-  // At each time of the history (output.history; the output times where none is given), within the last step.
+  // Called at each time of the history (output.history; default: the output times); the time lies within the last step.
   virtual void on_history(const ObservedState&) {}
 
-  // At each event, within the last step, in the order of time with the outputs.
+  // Called at each event, in order of time with the outputs; the event lies within the last step.
   virtual void on_event(const Crossing&) {}
 
-  // After each step, and after the outputs that fell into it: the state at its end.
-  // `integrator.interpolate` works for times within the step.
+  // Called after each step and its outputs, with the state at the end of the step. `integrator.interpolate` is valid
+  // within the step.
   virtual void on_step(const StepInfo&, const ObservedState&, const Integrator&) {}
 
-  // When the run is over, however it ended.
+  // Called when the run has ended in any way.
   virtual void on_end() noexcept {}
 
-  // Saves what another process needs to continue from here: sums, extremes, lengths of files. Files written so far are
-  // flushed to the disk. Called between steps only. Throws RunError.
+  // Saves what another process needs to resume: sums, extremes, lengths of files. Files written so far are synced to
+  // the disk. Called between steps only. Throws RunError.
   virtual void save(Archive&) {}
 
-  // Restores what save() has saved, and checks that the files are at least as long as then. Changes no file. Throws
+  // Restores a saved state, and checks that files are at least as long as when it was saved. Changes no file. Throws
   // ConfigError.
   virtual void restore(const Archive&) {}
 };

@@ -22,10 +22,9 @@ constexpr const char* kResultFiles[] = {"frames",          "frames.pvd", "probes
                                         "checkpoint.cbor", kSetupFile,   kRunRecordFile};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
-constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over
+constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is replaced by renaming
 
-// A lock is left behind by every run, also by one that was refused; a part of a record by one that was killed while it
-// wrote its first file.
+// True if only leftovers of refused or killed runs are there: a lock file, or a partial run.json.
 bool is_unused(const fs::path& folder) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
@@ -36,7 +35,7 @@ bool is_unused(const fs::path& folder) {
   return true;
 }
 
-// Killed before anything was computed: only what is written first is there.
+// True if an earlier run was killed before it computed anything.
 bool has_just_begun(const fs::path& folder) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
@@ -48,7 +47,7 @@ bool has_just_begun(const fs::path& folder) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(const std::string&)> warn)
+ResultFolder::ResultFolder(fs::path path, EarlierResult earlier, std::function<void(const std::string&)> warn)
     : path_(std::move(path)), earlier_(earlier), warn_(std::move(warn)) {
   std::error_code ec;
   if (!fs::exists(path_, ec)) return;
@@ -58,11 +57,11 @@ ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(co
     throw ConfigError(path_.string(), "holds files that are no result of a run; use --out with another folder");
   lock();
   if (is_unused(path_)) return;
-  if (earlier_ == Earlier::resume) {
+  if (earlier_ == EarlierResult::resume) {
     remove_partial_files(path_);
-    consider_resuming();
+    find_checkpoint();
   }
-  if (earlier_ == Earlier::keep) refuse_earlier_result();
+  if (earlier_ == EarlierResult::keep) refuse_earlier_result();
 }
 
 void ResultFolder::lock() {
@@ -73,19 +72,19 @@ void ResultFolder::lock() {
 
 void ResultFolder::refuse_earlier_result() const {
   throw ConfigError(path_.string(),
-                    "holds an earlier result; use --force to replace it, --resume to go on "
-                    "from its checkpoint, or --out with another folder");
+                    "holds an earlier result; use --force to replace it, --resume to continue from its checkpoint, or "
+                    "--out with another folder");
 }
 
-void ResultFolder::consider_resuming() {
+void ResultFolder::find_checkpoint() {
   std::error_code ec;
   resumes_ = fs::exists(checkpoint(), ec);
   if (resumes_ || has_just_begun(path_)) return;
   completed_ = earlier_status() == "completed";
   if (!completed_)
     throw ConfigError(path_.string(),
-                      "holds a result without a checkpoint, so that nothing can be resumed; start it anew "
-                      "with --force in place of --resume, and with 'checkpoint: {every: 60}' in the scene");
+                      "holds a result without a checkpoint: nothing can be resumed; start anew with --force instead of "
+                      "--resume, and with 'checkpoint: {every: 60}' in the scene");
 }
 
 fs::path ResultFolder::checkpoint() const { return path_ / kCheckpoint; }
@@ -106,7 +105,7 @@ void ResultFolder::prepare() {
   std::error_code ec;
   if (!lock_) {
     lock();
-    if (earlier_ != Earlier::replace && !is_unused(path_)) refuse_earlier_result();  // one that was faster
+    if (earlier_ != EarlierResult::replace && !is_unused(path_)) refuse_earlier_result();  // another run came first
   }
   remove_partial_files(path_);
   for (const char* name : kResultFiles)

@@ -1,5 +1,4 @@
-// The folder that a run writes to, alone for as long as this lives. An earlier result is never touched
-// without being asked to.
+// The result folder of a run, locked for its lifetime. An earlier result is changed only on request.
 #pragma once
 
 #include <filesystem>
@@ -11,37 +10,37 @@
 
 namespace orthodyn {
 
-enum class Earlier { keep, replace, resume };  // what to do about an earlier result
+enum class EarlierResult { keep, replace, resume };  // what to do about an earlier result
 
 class ResultFolder {
  public:
-  // Throws ConfigError if the folder holds an earlier result that is to be kept, one that cannot be
-  // resumed, or anything else, if another run is at work there, and if it cannot be written to. Touches nothing yet.
-  // `warn` is told if the folder cannot be locked.
-  ResultFolder(std::filesystem::path path, Earlier earlier, std::function<void(const std::string&)> warn);
+  // Throws ConfigError if the folder holds an earlier result to be kept, a result that cannot be resumed, or other
+  // files; if another run holds the lock; and if the folder is not writable. Leaves the result unchanged, but may
+  // create the lock file and remove partial files. `warn` is called if the folder cannot be locked.
+  ResultFolder(std::filesystem::path path, EarlierResult earlier, std::function<void(const std::string&)> warn);
 
-  // Makes the folder and removes an earlier result from it. Throws RunError, and ConfigError if it cannot be made or
-  // another run has been there since.
+  // Creates the folder and removes an earlier result. Throws RunError; ConfigError if the folder cannot be created or
+  // another run has started there.
   void prepare();
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path checkpoint() const;
-  // There is a checkpoint, and it is to be used.
+  // True if there is a checkpoint to resume from.
   bool resumes() const { return resumes_; }
-  // It was to be resumed, completed, and has no checkpoint.
+  // True if the run to resume is completed and has no checkpoint.
   bool is_completed_without_checkpoint() const { return completed_; }
-  // How the earlier run ended: "completed", "interrupted", "failed", or "killed" if it cannot tell.
+  // How the earlier run ended: "completed", "interrupted", "failed", or "killed" if unknown.
   std::string earlier_status() const;
 
  private:
   void lock();
   void refuse_earlier_result() const;
-  void consider_resuming();
+  void find_checkpoint();
 
   std::filesystem::path path_;
-  Earlier earlier_;
+  EarlierResult earlier_;
   std::function<void(const std::string&)> warn_;
-  std::optional<FolderLock> lock_;  // none while there is no folder
+  std::optional<FolderLock> lock_;  // empty while the folder does not exist
   bool resumes_ = false, completed_ = false;
 };
 

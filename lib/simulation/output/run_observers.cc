@@ -22,7 +22,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
     frames_.emplace(folder, model, scene.output.fields, &model.parts().mesh);
     setup_.emplace(folder, setup);
   }
-  if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
+  if (const auto& output = scene.output; output.energy)  // without outputs, the drift is evaluated at steps
     energy.emplace(folder / "energy.csv", model, *setup.integrator,
                    output.frames == 0 && !output.history ? EnergyTimes::steps : output.energy_times);
   if (scene.output.momentum) momentum.emplace(folder / "momentum.csv");
@@ -34,7 +34,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 
-NamedObservers RunObservers::kept() {
+NamedObservers RunObservers::checkpointed() {
   NamedObservers out{{"inversion", &inversion}};
   const auto add = [&](const char* name, auto& observer) {
     if (observer) out.emplace_back(name, &*observer);
@@ -53,19 +53,19 @@ NamedObservers RunObservers::kept() {
 
 std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
-  if (progress) out.push_back(progress);  // it may share what it keeps with those that write
-  for (const auto& [name, observer] : kept()) out.push_back(observer);
+  if (progress) out.push_back(progress);  // called first; the writers can reuse the values it evaluates
+  for (const auto& [name, observer] : checkpointed()) out.push_back(observer);
   if (setup_) out.push_back(&*setup_);
   out.push_back(&checkpointer);
   return out;
 }
 
 void RunObservers::restore(const Checkpoint& checkpoint) {
-  for (const auto& [name, observer] : kept()) {
+  for (const auto& [name, observer] : checkpointed()) {
     const auto found = checkpoint.observers.find(name);
     if (found == checkpoint.observers.end())
       throw ConfigError(
-          fmt::format("checkpoint: nothing is kept of '{}'; start anew with --force in place of --resume", name));
+          fmt::format("checkpoint: has no entry for '{}'; start anew with --force instead of --resume", name));
     observer->restore(found->second);
   }
 }

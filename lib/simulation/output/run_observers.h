@@ -1,4 +1,4 @@
-// The observers of a dynamic run that a scene asks for: frames, probes, energies, steps, events.
+// The observers of a dynamic run, as requested by the scene: frames, probes, energies, steps, events.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,6 @@
 
 #include "lib/simulation/checkpoint/checkpointer.h"
 #include "lib/simulation/output/curves.h"
-#include "lib/simulation/output/event_writer.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/frames.h"
 #include "lib/simulation/output/setup_file.h"
@@ -16,7 +15,7 @@
 
 namespace orthodyn {
 
-// The columns of probes.csv that a scene asks for.
+// The columns of probes.csv.
 std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model);
 
 class RunObservers {
@@ -24,16 +23,16 @@ class RunObservers {
   // Touches no file. `setup` must outlive it.
   RunObservers(const Setup& setup, const std::filesystem::path& folder);
 
-  // The events that the run is to find; null if there are none.
+  // The events to find; null if there are none.
   EventFinder* events() { return finder_.empty() ? nullptr : &finder_; }
-  std::vector<std::string> silent_events() const { return finder_.silent(); }
+  std::vector<std::string> events_not_found() const { return finder_.not_found(); }
 
-  // Those that a checkpoint keeps, by name.
-  NamedObservers kept();
-  // In the order in which they are called; `progress` may be null.
+  // The observers saved in checkpoints, by name.
+  NamedObservers checkpointed();
+  // All observers, in the order in which they are called; `progress` may be null.
   std::vector<Observer*> all(Observer* progress, Checkpointer& checkpointer);
 
-  // Throws ConfigError, before anything is changed on the disk.
+  // Throws ConfigError before any file is changed.
   void restore(const Checkpoint& checkpoint);
 
   InversionWatch inversion;

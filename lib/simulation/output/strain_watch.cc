@@ -13,8 +13,8 @@ std::optional<StrainExcess> StrainWatch::of_all_ranks(std::optional<StrainExcess
                                            largest)};
 }
 
-void StrainWatch::look_at(const ObservedState& observed) {
-  last_look_ = observed.t();
+void StrainWatch::observe(const ObservedState& observed) {
+  last_evaluation_ = observed.t();
   const double energy = observed.evaluate("energy.elastic")[0];
   if (!(energy > largest_energy_)) return;
   largest_energy_ = energy;
@@ -25,20 +25,20 @@ void StrainWatch::look_at(const ObservedState& observed) {
 }
 
 void StrainWatch::save(Archive& archive) {
-  archive.put("last_look", last_look_);
+  archive.put("last_look", last_evaluation_);
   archive.put("largest_energy", largest_energy_);
   archive.put("worst", std::vector{worst_ ? worst_->share : 0, worst_ ? worst_->time : 0});
 }
 
 void StrainWatch::restore(const Archive& archive) {
-  last_look_ = archive.number("last_look");
+  last_evaluation_ = archive.number("last_look");
   largest_energy_ = archive.number("largest_energy");
   const auto& worst = archive.numbers("worst", 2);
   if (worst[0] > 0)
     worst_ = {worst[0], worst[1],
-              fmt::format("before the run was resumed, its body was strained to {:.3g} times the limit of the "
-                          "corotational law",
-                          worst[0])};
+              fmt::format(
+                  "before the run was resumed, the body was strained to {:.3g} times the limit of the corotational law",
+                  worst[0])};
 }
 
 }  // namespace orthodyn

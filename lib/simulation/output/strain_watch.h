@@ -1,12 +1,12 @@
-// Whether a run strained its body beyond what the corotational law holds for (lib/analysis/strain_check.h): looks at
-// outputs, and at steps where those are few, at which the elastic energy is larger than ever before.
+// Monitors whether strains exceed the validity limit of the corotational law (lib/analysis/strain_check.h). Strains are
+// evaluated when the elastic energy reaches a new maximum, which is checked at outputs and, where outputs are rare, at
+// steps.
 #pragma once
 
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "lib/analysis/strain_check.h"
 #include "lib/simulation/output/observer.h"
@@ -14,42 +14,44 @@
 
 namespace orthodyn {
 
-// The worst of a run.
-struct PassedStrain {
-  double share = 0, time = 0;  // times the limit; s, of a static analysis the load factor
+// The largest excess over the strain limit in a run.
+struct ExceededStrain {
+  double share = 0, time = 0;  // strain over its limit; time in s, in a static analysis the load factor
   std::string sentence = {};
 };
 
 class StrainWatch : public Observer {
  public:
-  // Of a motion of `span`, s. The model must outlive it.
-  static StrainWatch of_motion(const FemModel& model, double span) { return {model, std::nullopt, span / kLooks}; }
-  // Of a static analysis; t of its states is the load factor.
+  // For a motion of length `span` (s). The model must outlive the watch.
+  static StrainWatch of_motion(const FemModel& model, double span) {
+    return {model, std::nullopt, span / kEvaluations};
+  }
+  // For a static analysis; State::t is the load factor.
   static StrainWatch of_equilibria(const FemModel& model, const PathTimes& times) {
     return {model, times, std::numeric_limits<double>::infinity()};
   }
 
-  void on_output(const ObservedState& observed) override { look_at(observed); }
+  void on_output(const ObservedState& observed) override { observe(observed); }
   void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override {
-    if (std::abs(observed.t() - last_look_) >= interval_) look_at(observed);
+    if (std::abs(observed.t() - last_evaluation_) >= interval_) observe(observed);
   }
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
-  const std::optional<PassedStrain>& worst() const { return worst_; }
+  const std::optional<ExceededStrain>& worst() const { return worst_; }
 
  private:
-  static constexpr double kLooks = 200;
+  static constexpr double kEvaluations = 200;
 
   StrainWatch(const FemModel& model, const std::optional<PathTimes>& times, double interval)
       : model_(model), times_(times), interval_(interval) {}
-  void look_at(const ObservedState& observed);
+  void observe(const ObservedState& observed);
   std::optional<StrainExcess> of_all_ranks(std::optional<StrainExcess> here) const;
 
   const FemModel& model_;
   std::optional<PathTimes> times_;
-  double interval_, last_look_ = -std::numeric_limits<double>::infinity();  // s
-  double largest_energy_ = 0;                                               // J
-  std::optional<PassedStrain> worst_;
+  double interval_, last_evaluation_ = -std::numeric_limits<double>::infinity();  // s
+  double largest_energy_ = 0;                                                     // J
+  std::optional<ExceededStrain> worst_;
 };
 
 }  // namespace orthodyn

@@ -9,15 +9,16 @@
 #include "lib/analysis/linearity.h"
 #include "lib/analysis/static_response.h"
 #include "lib/core/errors.h"
+#include "lib/simulation/error_estimate/mass_norm.h"
 #include "lib/simulation/preflight/input_checks/input_checks.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kLeastSaving = 3;       // times: the number of steps is known to an order of magnitude
-constexpr double kMostError = 0.02;      // of the motion, by linear kinematics
-constexpr double kSecondsOfCosts = 0.3;  // in which terms are measured
+constexpr double kLeastSaving = 3;       // least ratio of run times; large, because these are rough
+constexpr double kMaxError = 0.02;       // relative error by linear kinematics
+constexpr double kSecondsOfCosts = 0.3;  // for measuring the terms
 
 double about(const CostRange& range) { return std::sqrt(range.least * range.most); }
 
@@ -25,15 +26,15 @@ std::vector<std::string> changes_for(const Setup& setup) {
   std::vector<std::string> changes;
   if (!setup.built.model->traits().linear) changes.emplace_back("elasticity.kinematics: linear");
   if (setup.config.at("integrator").at("type").text() != "auto")
-    changes.push_back(fmt::format("integrator: {{type: auto, rtol: {:g}}}", accuracy_asked_for(setup.scene)));
+    changes.push_back(fmt::format("integrator: {{type: auto, rtol: {:g}}}", requested_accuracy(setup.scene)));
   return changes;
 }
 
-// Replaces the section `integrator`: its keys belong to the present method.
+// Replaces the whole section `integrator`, because its keys belong to the present method.
 Config changed(const Setup& setup) {
   Config config = setup.config.copy().resolving();
   if (!setup.built.model->traits().linear) config.set("elasticity.kinematics", std::string("linear"));
-  config.override_with(fmt::format("integrator={{type: auto, rtol: {}}}", accuracy_asked_for(setup.scene)));
+  config.override_with(fmt::format("integrator={{type: auto, rtol: {}}}", requested_accuracy(setup.scene)));
   return config;
 }
 
@@ -46,8 +47,8 @@ std::string name_of_method(const Integrator& integrator) {
   return method + modes;
 }
 
-std::optional<FasterWay> with_changes(const Setup& setup, const RunCost& cost) {
-  FasterWay way{.changes = changes_for(setup), .method = {}, .now = about(cost.seconds())};
+std::optional<FasterSetup> with_changes(const Setup& setup, const RunCost& cost) {
+  FasterSetup way{.changes = changes_for(setup), .method = {}, .now = about(cost.seconds())};
   if (way.changes.empty()) return std::nullopt;
   const Setup other = set_up(changed(setup));
   if (!other.built.model->traits().linear) return std::nullopt;
@@ -61,12 +62,12 @@ std::optional<FasterWay> with_changes(const Setup& setup, const RunCost& cost) {
 
 }  // namespace
 
-std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost) try {
+std::optional<FasterSetup> faster_setup(const Setup& setup, const RunCost& cost) try {
   if (!setup.integrator || setup.kinematics || setup.scene.elasticity.is_warped() ||
-      setup.built.model->num_dofs() > kMostUnknownsOfResponse)
+      setup.built.model->num_dofs() > kMaxUnknownsOfResponse)
     return std::nullopt;
   return with_changes(setup, cost);
-} catch (const ConfigError&) {  // the changed scene is only a proposal
+} catch (const ConfigError&) {  // the changed scene is only a proposal; it may be invalid
   return std::nullopt;
 } catch (const RunError&) {
   return std::nullopt;
@@ -74,7 +75,7 @@ std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost) try
   return std::nullopt;
 }
 
-bool FasterWay::pays() const { return now >= kLeastSaving * then && error.value_or(0) <= kMostError; }
+bool FasterSetup::pays() const { return now >= kLeastSaving * then && error.value_or(0) <= kMaxError; }
 
 double error_of_linear_kinematics(const Setup& linear) {
   const FemModel& model = *linear.built.model;
@@ -86,13 +87,10 @@ double error_of_linear_kinematics(const Setup& linear) {
   Linearity::Terms terms(model.parts().elastic.size());
   std::iota(terms.begin(), terms.end(), 0u);
   Linearity linearity(model, terms, end - start);
-  const Vector half = share_reached(model.space(), statics) * statics.displacement, all = 2 * half;
-  Vector momentum(all.size());
-  model.multiply_mass(statics.displacement, momentum);
-  const double omega = std::sqrt(statics.work / statics.displacement.dot(momentum));
-  model.multiply_mass(all, momentum);
+  const Vector half = load_duration_factor(model.space(), statics) * statics.displacement, all = 2 * half;
+  const double omega = std::sqrt(statics.work / mass_product(model, statics.displacement));
   const VibrationDrift drift = linearity.drift(end, half, half, omega);
-  return linearity.error(end, all).displacement + drift.after(end - start) / std::sqrt(all.dot(momentum));
+  return linearity.error(end, all).displacement + drift.after(end - start) / std::sqrt(mass_product(model, all));
 }
 
 }  // namespace orthodyn

@@ -7,30 +7,31 @@
 #include <cmath>
 
 #include "lib/linear/solver.h"
-#include "lib/simulation/output/output_size.h"
 #include "lib/simulation/output/run_observers.h"
+#include "lib/simulation/preflight/output_size.h"
 #include "lib/simulation/run/setup.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kLargestFactor = 2e9;  // bytes of one that is tried for the sake of a figure: some ten seconds
+constexpr double kLargestFactor = 2e9;  // bytes; a larger factorisation takes over 10 s and is not measured
 
-// Of an adaptive implicit method, measured on the scenes of configs/: forces and solutions for each step, tangents with
-// their factors for each, and steps for each radian of the motion at rtol 1e-3.
-constexpr double kIterations = 4, kFewestTangents = 0.05, kMostTangents = 1, kSteps = 7;
-constexpr double kSpread = 5;           // of the number of steps, to both sides
-constexpr double kScaleOfMotion = 0.1;  // a position scale is about a tenth of the motion
+// Adaptive implicit methods, measured on configs/: Newton iterations and tangents (with factorisation) per step, and
+// steps per radian of the motion at rtol 1e-3.
+constexpr double kIterations = 4, kFewestTangents = 0.05, kMaxTangents = 1, kSteps = 7;
+constexpr double kSpread = 5;           // uncertainty of the number of steps, as a factor
+constexpr double kScaleOfMotion = 0.1;  // position scale over the amplitude of the motion
 constexpr double kUsualSafety = 0.9;
-constexpr double kSpreadOfContact = 15;  // upwards: how often and how long the body touches something is not known
-constexpr double kFewestSteps = 10;      // until an event may end the run
+constexpr double kSpreadOfContact = 15;   // upper uncertainty factor with contact, whose duration is unknown
+constexpr double kStepsBeforeEvent = 10;  // until an event may end the run
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// A factor of M/h^2 + K with h the time of a wave through an element: it costs the same for any h.
+// Measures the factorisation of M/h^2 + K, where h is the time that a wave takes through an element. The cost does not
+// depend on h.
 void measure_factor(const Setup& setup, RunCost& cost) {
   const FemModel& model = *setup.built.model;
   const State& initial = setup.built.initial;
@@ -39,7 +40,7 @@ void measure_factor(const Setup& setup, RunCost& cost) {
   std::vector<double> values(at.stiffness.size());
   model.combine({model.frequency_bound() * model.frequency_bound(), 0, 1}, at, values.data());
   const auto wanted = setup.scene.integrator ? setup.scene.integrator->settings().linear_solver : std::nullopt;
-  const bool has_own = wanted && solver_registry().at(wanted->type).make;  // klu_full is SUNDIALS'
+  const bool has_own = wanted && solver_registry().at(wanted->type).make;  // klu_full belongs to SUNDIALS
   const auto solver = has_own ? make_linear_solver(*wanted) : make_solver_for(model.pattern());
   if (has_own) solver->analyze(model.pattern());
   if (static_cast<double>(solver->factor_bytes()) > kLargestFactor) return;
@@ -50,7 +51,7 @@ void measure_factor(const Setup& setup, RunCost& cost) {
   begin = std::chrono::steady_clock::now();
   try {
     solver->solve(Vector(x), x);
-  } catch (const RecoverableError&) {  // no figure, then
+  } catch (const RecoverableError&) {  // cost.solve stays empty
     return;
   }
   cost.solve = seconds_since(begin);
@@ -66,15 +67,16 @@ bool may_end_early(const Scene& scene) {
                      [](const EventSpec& event) { return event.action == EventAction::stop; });
 }
 
-// Steps of an adaptive implicit method, about, by the cycles of the motion as radians.
+// Approximate number of steps of an adaptive implicit method, from the phase of the motion in radians.
 double steps_for(const Setup& setup, const Scales& scales) {
   const double omega = std::max(scales.omega, kScaleOfMotion * scales.velocity / scales.position);
   const double phase = omega * (setup.scene.time.end - setup.scene.time.start);
   return 10 + kSteps * phase * std::cbrt(1e-3 / setup.scene.integrator->settings().rtol.value_or(1e-3));
 }
 
-// Of a body that may touch something the position scale is the depth of contact: as if it touched all the time. Without
-// contact it is a tenth of the extent. What is measured lies between the two, near their geometric mean.
+// For a scene with contact, `about` is the number of steps if the body were always in contact (position scale: depth of
+// contact), and `fewest` the number if it never were (position scale: a tenth of the extent). Measured numbers of steps
+// lie near the geometric mean of the two.
 CostRange adaptive_steps(const Setup& setup) {
   const Scales scales = task_of(setup.scene, setup.built).scales();
   const double about = steps_for(setup, scales);
@@ -85,10 +87,10 @@ CostRange adaptive_steps(const Setup& setup) {
   return {fewest / kSpread, std::sqrt(fewest * about) * kSpreadOfContact};
 }
 
-// Number of steps of modal: one or two with constant loads, 50 to 1000 with loads that vary in time.
+// Steps of `modal`: one or two with constant loads, 50 to 1000 with time-dependent ones.
 CostRange steps_of_modes(const FemModel& model) {
-  constexpr double kFewest = 50, kMost = 1000;
-  return model.traits().time_dependent ? CostRange{kFewest, kMost} : CostRange{1, 2};
+  constexpr double kFewest = 50, kMax = 1000;
+  return model.traits().time_dependent ? CostRange{kFewest, kMax} : CostRange{1, 2};
 }
 
 CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
@@ -98,7 +100,7 @@ CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
     cost.fixed_steps = true;
     return {std::ceil(span / *settings.step), std::ceil(span / *settings.step)};
   }
-  if (!is_implicit) {  // the bound of the frequency is above it by up to two
+  if (!is_implicit) {  // the bound is one to two times the highest frequency
     const double most = span * setup.built.model->frequency_bound() / 2 / settings.safety.value_or(kUsualSafety);
     return {most / 2, most};
   }
@@ -108,42 +110,41 @@ CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
     return std::round(x / unit) * unit;
   };
   const double fewest = settings.h_max ? span / *settings.h_max : 1;
-  const double least = cost.may_end_early ? std::min(about.least, kFewestSteps) : std::max(about.least, fewest);
+  const double least = cost.may_end_early ? std::min(about.least, kStepsBeforeEvent) : std::max(about.least, fewest);
   return {two_digits(least), two_digits(std::max(about.most, fewest))};
 }
 
-// Load steps that are doubled from the first one on; each takes a few Newton corrections with a factor each.
+// Load steps double in size from the first one. Each takes a few Newton iterations with a factorisation each.
 void add_load_steps(const Statics& statics, RunCost& cost) {
-  constexpr double kFewestCorrections = 3, kMostCorrections = 8, kMostCuts = 10;
+  constexpr double kFewestCorrections = 3, kMaxCorrections = 8, kMaxCuts = 10;
   const double each = cost.force + cost.tangent + cost.factor.value_or(0) + cost.solve.value_or(0);
-  cost.step = {kFewestCorrections * each, kMostCorrections * each};
+  cost.step = {kFewestCorrections * each, kMaxCorrections * each};
   const double fewest = fewest_load_steps(statics);
-  cost.steps = {fewest, std::min(kMostCuts * fewest, static_cast<double>(statics.max_steps))};
+  cost.steps = {fewest, std::min(kMaxCuts * fewest, static_cast<double>(statics.max_steps))};
 }
 
-// One computation: the stiffness, what stresses add to it from four tangents more, three factors and Lanczos'
-// solutions.
+// Buckling takes tangents for the stiffness and the stress stiffness, three factorisations, and Lanczos solutions.
 void add_buckling(RunCost& cost) {
-  constexpr double kTangents = 6, kFactors = 3, kFewestSolutions = 50, kMostSolutions = 500;
+  constexpr double kTangents = 6, kFactors = 3, kFewestSolutions = 50, kMaxSolutions = 500;
   const double fixed = kTangents * cost.tangent + kFactors * cost.factor.value_or(0);
-  cost.step = {fixed + kFewestSolutions * cost.solve.value_or(0), fixed + kMostSolutions * cost.solve.value_or(0)};
+  cost.step = {fixed + kFewestSolutions * cost.solve.value_or(0), fixed + kMaxSolutions * cost.solve.value_or(0)};
   cost.steps = {1, 1};
 }
 
-// Evaluated on a view of its own, as a time of outputs has one; the second time, when what is kept for all views is
-// made.
-template <class Look>
-double seconds_of(const Setup& setup, const Look& look) {
+// Time (s) of `evaluate` on a new view of the state, as at an output time. The second call is measured, when data
+// shared by all views exist.
+template <class Evaluate>
+double seconds_of(const Setup& setup, const Evaluate& evaluate) {
   double seconds = 0;
   for (int k = 0; k < 2; ++k) {
     const auto begin = std::chrono::steady_clock::now();
-    look(ObservedState(*setup.built.model, setup.built.initial));
+    evaluate(ObservedState(*setup.built.model, setup.built.initial));
     seconds = seconds_since(begin);
   }
   return seconds;
 }
 
-// At the two points at which the work of loads and of damping is integrated.
+// Time (s) to evaluate the powers of loads and damping at the two Gauss points of a step.
 double seconds_of_powers(const Setup& setup) {
   const Traits& traits = setup.built.model->traits();
   return 2 * seconds_of(setup, [&](const ObservedState& at) {
@@ -181,44 +182,46 @@ void add_outputs(const Setup& setup, RunCost& cost) {
   cost.rows = size.rows > 0 ? CostRange{size.rows, size.rows} : cost.steps;
 }
 
-}  // namespace
-
-bool takes_modes(const Integrator& integrator, const Config& config) {
+// True for `modal`, and for `auto` with that choice.
+bool uses_modes(const Integrator& integrator, const Config& config) {
   std::string method = config.at("integrator").at("type").text();
   for (const auto& [key, value] : integrator.decisions())
-    if (key == "method") method = value;  // of auto
+    if (key == "method") method = value;  // chosen by `auto`
   return method == "modal";
 }
+
+void add_time_steps(const Setup& setup, bool is_implicit, RunCost& cost) {
+  const FemModel& model = *setup.built.model;
+  cost.may_end_early = may_end_early(setup.scene);
+  if (uses_modes(*setup.integrator, setup.config)) {
+    constexpr double kForces = 8;  // force evaluations and solutions per step
+    cost.step = {cost.force, kForces * (cost.force + cost.solve.value_or(0))};
+    cost.steps = steps_of_modes(model);
+    return;
+  }
+  cost.step = {cost.force, 2 * cost.force};  // including outputs and sums
+  if (is_implicit) {
+    const double each = kIterations * (cost.force + cost.solve.value_or(0));
+    const double anew = cost.tangent + cost.factor.value_or(0);
+    const double fewest = model.traits().linear ? 0 : kFewestTangents;
+    cost.step = {each + fewest * anew, each + kMaxTangents * anew};
+  }
+  cost.has_contact = is_implicit && has_contact(model);
+  cost.steps = steps_of(setup, is_implicit, cost);
+}
+
+}  // namespace
 
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   RunCost cost;
   for (const TermCost& term : costs) cost.force += term.force, cost.tangent += term.tangent;
-  const bool is_static = !setup.integrator, is_implicit = is_static || setup.integrator->factor_bytes() > 0;
+  const bool is_implicit = !setup.integrator || setup.integrator->factor_bytes() > 0;
   if (is_implicit) measure_factor(setup, cost);
-  if (is_static) {
-    setup.scene.buckling ? add_buckling(cost) : add_load_steps(*setup.scene.statics, cost);
-    if (!setup.scene.buckling) add_outputs(setup, cost);
+  if (setup.scene.buckling) {
+    add_buckling(cost);
     return cost;
   }
-  if (takes_modes(*setup.integrator, setup.config)) {
-    constexpr double kForces = 8;  // and solutions in a step
-    cost.step = {cost.force, kForces * (cost.force + cost.solve.value_or(0))};
-    cost.may_end_early = may_end_early(setup.scene);
-    cost.steps = steps_of_modes(*setup.built.model);
-    add_outputs(setup, cost);
-    return cost;
-  }
-  if (is_implicit) {
-    const double each = kIterations * (cost.force + cost.solve.value_or(0));
-    const double anew = cost.tangent + cost.factor.value_or(0);
-    const double fewest = setup.built.model->traits().linear ? 0 : kFewestTangents;
-    cost.step = {each + fewest * anew, each + kMostTangents * anew};
-  } else {
-    cost.step = {cost.force, 2 * cost.force};  // with what is written and summed up beside
-  }
-  cost.has_contact = is_implicit && has_contact(*setup.built.model);
-  cost.may_end_early = may_end_early(setup.scene);
-  cost.steps = steps_of(setup, is_implicit, cost);
+  setup.integrator ? add_time_steps(setup, is_implicit, cost) : add_load_steps(*setup.scene.statics, cost);
   add_outputs(setup, cost);
   return cost;
 }
@@ -230,7 +233,7 @@ std::string shown_seconds(const CostRange& range) {
     if (seconds >= 120) return {60, "min"};
     return {1, "s"};
   };
-  constexpr double kOneUnit = 100;  // for both where they are no further apart
+  constexpr double kOneUnit = 100;  // ratio up to which both limits share a unit
   const auto [size, unit] = unit_of(range.most);
   if (range.most <= kOneUnit * range.least)
     return fmt::format("{:.3g} to {:.3g} {}", range.least / size, range.most / size, unit);

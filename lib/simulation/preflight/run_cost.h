@@ -1,11 +1,10 @@
-// What a run of a scene will take of the processor, from the measured cost of a force, a tangent, a factorisation, a
-// row of its tables and a frame.
-// The number of steps is known for fixed steps and about known for explicit methods; of methods that choose their steps
-// there is a range, by the motion's phase over the time span, which is right to an order of magnitude; it is wider
-// where a body may touch something, and where an event may end the run.
+// Estimates the processor time of a run before it starts, from the measured time of a force, a tangent, a
+// factorisation, a table row and a frame. The number of steps is exact for fixed steps and approximate for explicit
+// methods. For methods with adaptive steps it is a range, accurate to an order of magnitude, derived from the phase
+// angle of the motion over the time span. The range is wider if the body may come into contact or an event may end the
+// run.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,14 +18,15 @@ struct CostRange {
 };
 
 struct RunCost {
-  double force = 0, tangent = 0;                    // s, of one evaluation
-  std::optional<double> factor = {}, solve = {};    // s; none for methods without a factor, and where it is too large
-  CostRange step;                                   // s
-  CostRange steps;                                  // equal where they are known
-  bool fixed_steps = false;                         // by the input
-  bool has_contact = false, may_end_early = false;  // error control meets a ground; an event may end the run
-  double row = 0, frame = 0;                        // s, of one: what is computed of a state for it
-  CostRange rows;                                   // each step where their number is not known
+  double force = 0, tangent = 0;  // one evaluation, s
+  std::optional<double> factor = {},
+                        solve = {};  // s; empty if the method has no factorisation or it is too large to measure
+  CostRange step;                    // one step, s
+  CostRange steps;                   // equal limits if the number is known
+  bool fixed_steps = false;          // step size given in the input
+  bool has_contact = false, may_end_early = false;  // adaptive steps with contact; an event may end the run
+  double row = 0, frame = 0;                        // time to compute one table row, one frame, s
+  CostRange rows;                                   // number of rows; one per step if unknown
   double frames = 0;
   CostRange outputs() const { return {rows.least * row + frames * frame, rows.most * row + frames * frame}; }
   CostRange seconds() const {
@@ -34,14 +34,10 @@ struct RunCost {
   }
 };
 
-// Of an analysis whose integrator, if it has one, has been started; takes as long as a factorisation, at most some ten
-// seconds.
+// Call after the integrator, if any, has been started. Takes as long as a factorisation, at most about 10 s.
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
 
-// Whether the integrator made from `config`, a scene, is `modal` or `auto` with that choice.
-bool takes_modes(const Integrator& integrator, const Config& config);
-
-// "2 to 40 min"; of ends far apart "0.3 s to 40 min".
+// "2 to 40 min"; for a wide range "0.3 s to 40 min".
 std::string shown_seconds(const CostRange& range);
 
 }  // namespace orthodyn

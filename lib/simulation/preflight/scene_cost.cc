@@ -9,23 +9,24 @@
 #include <numbers>
 
 #include "lib/analysis/static_response.h"
-#include "lib/fem/part_model.h"
+#include "lib/fem/fem_model.h"
+#include "lib/simulation/error_estimate/mass_norm.h"
 #include "lib/simulation/error_estimate/mesh_error.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kUsualAccuracy = 1e-3;    // without an rtol
-constexpr double kOfAccuracy = 0.1;        // what is smaller than this part of it does not matter
-constexpr double kSmall = 1e-6;            // of the smallest extent
-constexpr int kLargestSystem = 30'000;     // unknowns of which two more models and a factor are made
-constexpr double kSecondsOfVariant = 0.2;  // in which the cost of another model is measured
+constexpr double kUsualAccuracy = 1e-3;    // if the integrator has no rtol
+constexpr double kNegligible = 0.1;        // relative to the accuracy; smaller effects are negligible
+constexpr double kSmall = 1e-6;            // displacement over the smallest extent
+constexpr int kLargestSystem = 30'000;     // unknowns up to which further models and a factorisation are made
+constexpr double kSecondsOfVariant = 0.2;  // for measuring another model
 constexpr double kMuchData = 1e9;          // bytes of frames
 
 double seconds_of(double budget, const std::function<void()>& work) {
   using Clock = std::chrono::steady_clock;
-  work();  // caches, pages of memory and the processor's clock
+  work();  // warms up caches, memory pages and the clock rate
   const auto begin = Clock::now();
   for (int count = 1;; ++count) {
     work();
@@ -34,32 +35,33 @@ double seconds_of(double budget, const std::function<void()>& work) {
   }
 }
 
-class Judge {
+class SavingsFinder {
  public:
-  Judge(const Setup& setup, const std::vector<TermCost>& costs)
+  SavingsFinder(const Setup& setup, const std::vector<TermCost>& costs)
       : setup_(setup),
         model_(*setup.built.model),
         costs_(costs),
-        accuracy_(accuracy_asked_for(setup.scene)),
+        accuracy_(requested_accuracy(setup.scene)),
         response_(static_response(model_, setup.built.initial, setup.scene.time.end)) {}
 
   std::vector<std::string> sentences() {
     if (response_.exists() && response_.work > 0) {
-      look_at_loads();
-      look_at_damping();
-      look_at_regions();
-      look_at_mesh();
-      look_at_kinematics();
+      check_loads();
+      check_damping_effect();
+      check_regions();
+      check_mesh();
+      check_kinematics();
     }
-    look_at_frames();
+    check_frames();
     return std::move(found_);
   }
 
  private:
   const FemModel::Parts& parts() const { return model_.parts(); }
-  double threshold() const { return kOfAccuracy * accuracy_; }
+  double threshold() const { return kNegligible * accuracy_; }
 
-  // The response, so small that rotations do not matter: the linear response of a slender body may be a large one.
+  // The response, scaled down until rotations are negligible, because the linear response of a slender body may be
+  // large.
   Vector small_response() const {
     const Vector& u = response_.displacement;
     return kSmall * bounding_box(parts().mesh).size().minCoeff() / u.lpNorm<Eigen::Infinity>() * u;
@@ -74,7 +76,7 @@ class Judge {
     return all > 0 ? own / all : 0;
   }
 
-  // What another model of the scene takes less of, measured as the costs were.
+  // The saving by another model of the scene, whose costs are measured in the same way.
   std::string saving(const FemModel& other, const State& initial) const {
     const auto sums = [](const std::vector<TermCost>& costs) {
       TermCost sum;
@@ -87,32 +89,31 @@ class Judge {
                        less(now.tangent, then.tangent));
   }
 
-  // By what each would do alone: a force that holds a body up does no work on the response to all.
-  void look_at_loads() {
+  // Loads are judged by the response to each of them alone, because a supporting force does no work on the response to
+  // all loads.
+  void check_loads() {
     const auto loads = peak_loads(model_, setup_.built.initial, setup_.scene.time.end);
     if (loads.size() < 2) return;
     const auto alone = static_displacements(model_, loads);
     const auto names = part_names(parts());
     const double all = response_.displacement.lpNorm<Eigen::Infinity>();
     for (std::size_t k = 0; k < loads.size(); ++k) {
-      if (loads[k].isZero(0) || alone[k].size() == 0) continue;  // springs, contact: nothing at rest
+      if (loads[k].isZero(0) || alone[k].size() == 0) continue;  // springs, contact: no force at rest
       const double share = alone[k].lpNorm<Eigen::Infinity>() / all;
       if (!(share < threshold())) continue;
       const std::string& name = names[parts().elastic.size() + k];
-      found_.push_back(
-          fmt::format("{}: alone it moves the body by {:.1e} of what all loads do; leaving it out saves {:.1g} % of a "
-                      "force",
-                      name, share, 100 * share_of_force(name)));
+      found_.push_back(fmt::format(
+          "{}: alone it causes {:.1e} of the displacement by all loads; omitting it saves {:.1g} % of a force", name,
+          share, 100 * share_of_force(name)));
     }
   }
 
-  // Of the slowest vibration, by Rayleigh's quotient of the response.
-  void look_at_damping() {
+  // Damping is judged by its effect on the slowest vibration, whose frequency is the Rayleigh quotient of the response.
+  void check_damping_effect() {
     if (!setup_.scene.damping || setup_.scene.is_static()) return;
     const Vector& u = response_.displacement;
-    Vector Mu(u.size());
-    model_.multiply_mass(u, Mu);
-    const double omega2 = response_.work / u.dot(Mu), time = setup_.scene.time.end - setup_.scene.time.start;
+    const double omega2 = response_.work / mass_product(model_, u),
+                 time = setup_.scene.time.end - setup_.scene.time.start;
     const auto& damping = *setup_.scene.damping;
     const double taken = 0.5 * (damping.mass + damping.stiffness * omega2) * time;
     if (!(taken < accuracy_)) return;
@@ -121,13 +122,13 @@ class Judge {
     for (auto& [name, region] : without.regions) region.stiffness_damping.reset();
     const BuiltScene built = build(without);
     found_.push_back(
-        fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated, but "
-                    "does take fast ones; leaving it out {}",
+        fmt::format("damping: it removes {:.1e} of a slow vibration ({:.3g} Hz) in the simulated time, but does damp "
+                    "fast ones; omitting it {}",
                     taken, std::sqrt(omega2) / (2 * std::numbers::pi), saving(*built.model, built.initial)));
   }
 
-  // In the response, in which a region may move and hardly be strained.
-  void look_at_regions() {
+  // Regions are judged by their elastic energy in the response, because a region may move but hardly deform.
+  void check_regions() {
     if (parts().elastic.size() < 2) return;
     const Vector still = Vector::Zero(model_.num_dofs());
     const NodalExpansion nodal(parts(), setup_.built.initial.t, small_response(), still);
@@ -137,29 +138,28 @@ class Judge {
     for (std::size_t k = 0; k < energies.size(); ++k)
       if (energies[k] < threshold() * all)
         found_.push_back(
-            fmt::format("region {}: it bears {:.1e} of the elastic energy and moves as a rigid body: {} "
-                        "elements of it, {:.0f} % of a force, could be fewer",
+            fmt::format("region {}: it has {:.1e} of the elastic energy and moves as a rigid body: a coarser mesh "
+                        "would do ({} elements, {:.0f} % of a force)",
                         parts().elastic[k]->region(), energies[k] / all, parts().elastic[k]->size(),
                         100 * share_of_force(parts().elastic[k]->name())));
   }
 
-  void look_at_mesh() {
+  void check_mesh() {
     const State state{setup_.built.initial.t, small_response(), Vector::Zero(model_.num_dofs())};
     const auto energy = model_.evaluate("energy.mesh_error", state);
     const double error = energy[0] / (energy[0] + energy[1]);
     if (error < threshold())
-      found_.push_back(fmt::format(
-          "mesh: its error is about {:.1e}: so fewer cells would do, or a smaller rtol would pay; doubling the "
-          "cell size removes seven of eight elements",
-          error));
-    if (error > kCoarseMesh)
       found_.push_back(
-          fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells{} would "
-                      "reduce it",
-                      error, parts().mesh.order() == 1 ? " or mesh.order: 2" : ""));
+          fmt::format("mesh: its error is about {:.1e}: fewer cells would do, or a smaller rtol would be useful; "
+                      "doubling the cell size removes seven of eight elements",
+                      error));
+    if (error > kCoarseMesh)
+      found_.push_back(fmt::format(
+          "no elements of the mesh, whose error is about {:.1e} of the elastic energy: finer cells{} would reduce it",
+          error, parts().mesh.order() == 1 ? " or mesh.order: 2" : ""));
   }
 
-  void look_at_kinematics() {
+  void check_kinematics() {
     if (model_.traits().linear || setup_.scene.elasticity.is_warped() || setup_.kinematics ||
         model_.num_dofs() > kLargestSystem)
       return;
@@ -169,12 +169,12 @@ class Judge {
     if (!leaves_kinematics_open(scene)) return;
     if (const ChosenKinematics chosen = choose_kinematics(config, scene); chosen.choice.linear)
       found_.push_back(
-          fmt::format("large rotations: by the linear response linear kinematics are off by less than "
-                      "{:.1g} of the motion; elasticity.kinematics: auto takes them, and watches; this {}",
+          fmt::format("large rotations: by the linear response, linear kinematics are off by less than {:.1g} of the "
+                      "motion; elasticity.kinematics: auto uses and monitors them; this {}",
                       3 * chosen.watch->allowed(), saving(*chosen.built.model, chosen.built.initial)));
   }
 
-  void look_at_frames() {
+  void check_frames() {
     const auto& output = setup_.scene.output;
     const double frames = output.interval ? (setup_.scene.time.end - setup_.scene.time.start) / *output.interval
                                           : output.frames.value_or(50);
@@ -198,7 +198,7 @@ class Judge {
 
 }  // namespace
 
-double accuracy_asked_for(const Scene& scene) {
+double requested_accuracy(const Scene& scene) {
   if (scene.integrator)
     if (const auto rtol = scene.integrator->settings().rtol) return *rtol;
   return kUsualAccuracy;
@@ -223,8 +223,8 @@ std::vector<TermCost> term_costs(const FemModel& model, const State& initial, do
   return costs;
 }
 
-std::vector<std::string> dispensable(const Setup& setup, const std::vector<TermCost>& costs) {
-  return Judge(setup, costs).sentences();
+std::vector<std::string> possible_savings(const Setup& setup, const std::vector<TermCost>& costs) {
+  return SavingsFinder(setup, costs).sentences();
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// What a scene's terms cost, measured, and which of them it could do without at the accuracy that it asks for: by its
-// linear static response under all loads at their peaks.
+// Measures the cost of a scene's terms, and finds parts that are negligible at the scene's accuracy. Parts are judged
+// by the linear static response to all loads at their largest values.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ namespace orthodyn {
 
 struct TermCost {
   std::string name;
-  double force = 0, tangent = 0;  // s, of one evaluation
+  double force = 0, tangent = 0;  // one evaluation, s
 };
 
-// Of all terms at the initial state; takes about `seconds` in all.
+// Measures all terms at the initial state. Takes about `seconds`.
 std::vector<TermCost> term_costs(const FemModel& model, const State& initial, double seconds);
 
-// One sentence each; none where nothing responds or the body is not held.
-std::vector<std::string> dispensable(const Setup& setup, const std::vector<TermCost>& costs);
+// One sentence for each saving; empty if the loads cause no displacement or the body is not held.
+std::vector<std::string> possible_savings(const Setup& setup, const std::vector<TermCost>& costs);
 
-// The accuracy that it is judged by: integrator.rtol, or else 1e-3.
-double accuracy_asked_for(const Scene& scene);
+// The accuracy at which parts are judged: integrator.rtol, or 1e-3 if absent.
+double requested_accuracy(const Scene& scene);
 
 }  // namespace orthodyn

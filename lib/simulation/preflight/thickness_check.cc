@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace orthodyn {
 
 namespace {
 
-// The faces that belong to one cell of the region alone.
+// Nodes of faces that belong to only one cell of the region.
 std::vector<char> nodes_on_surface(const TetMesh& mesh, const std::vector<std::size_t>& cells) {
   std::map<Triangle, int> uses;
   const auto visit_faces = [&](const Tet& tet, auto&& visit) {
@@ -31,7 +30,7 @@ std::vector<char> nodes_on_surface(const TetMesh& mesh, const std::vector<std::s
   return on_surface;
 }
 
-// The largest number of edges from a node of the region to its surface; 2 for two and more.
+// Largest number of edges from a node of the region to its surface; 2 for two or more.
 int depth(const TetMesh& mesh, const std::vector<std::size_t>& cells) {
   const std::vector<char> on_surface = nodes_on_surface(mesh, cells);
   std::vector<char> next_to_it(on_surface);
@@ -62,8 +61,8 @@ std::vector<std::string> thin_regions(const TetMesh& mesh) {
     const int deepest = depth(mesh, cells[r]);
     if (deepest > 1) continue;
     out.push_back(
-        fmt::format("region {} is {} through its thickness: where it bends or twists its deflection may be "
-                    "less than half of the true one; take mesh.order: 2",
+        fmt::format("region {} is {} through its thickness: in bending and torsion its deflection may be less than "
+                    "half of the true one; use mesh.order: 2",
                     mesh.region_names[r], deepest == 0 ? "one linear element" : "two or three linear elements"));
   }
   return out;

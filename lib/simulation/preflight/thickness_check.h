@@ -1,5 +1,5 @@
-// Linear tetrahedra through the thickness of a region: with one to three of them bodies that bend are far too stiff
-// (docs/accuracy.md).
+// Checks the number of linear tetrahedra through the thickness of a region: with one to three of them, bending is far
+// too stiff (docs/accuracy.md).
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace orthodyn {
 
-// A region whose nodes are all on its surface is one element thick; one whose nodes are all there or one edge from
-// there two or three. One sentence for each such region of a mesh of linear elements; none for quadratic ones.
+// One sentence for each region that is one to three linear elements thick; empty for quadratic elements. A region is
+// one element thick if all its nodes are on its surface, and two or three if all nodes are at most one edge away from
+// the surface.
 std::vector<std::string> thin_regions(const TetMesh& mesh);
 
 }  // namespace orthodyn

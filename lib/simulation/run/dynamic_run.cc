@@ -1,4 +1,4 @@
-// A dynamic analysis of a scene: integrated from its start or from a checkpoint to its end, and what it writes.
+// Dynamic analysis of a scene: integration from the start or a checkpoint to the end, and output files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +8,7 @@
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
-#include "lib/simulation/output/disk_reserve.h"
 #include "lib/simulation/output/run_observers.h"
-#include "lib/simulation/run/model_keys.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
@@ -25,19 +23,18 @@ CheckpointTimes checkpoint_times(const Scene& scene) {
   return {scene.checkpoint->every, scene.checkpoint->frames.value_or(0), false};
 }
 
-// A run that ended early, by an event as well, can be taken up again whether or not the scene asks for checkpoints; one
-// that completed can be extended if it does. A checkpoint that is there is kept up to date.
-bool keeps_last_state(const Scene& scene, const Outcome& outcome, bool resumed) {
+// A run that ended early, also by an event, can always be resumed; a completed run can be extended if the scene has
+// `checkpoint`. An existing checkpoint is updated.
+bool needs_last_checkpoint(const Scene& scene, const Outcome& outcome, bool resumed) {
   return scene.checkpoint || resumed || outcome.status != Outcome::Status::completed || !outcome.remark.empty();
 }
 
 void require_whole_run(const Setup& setup) {
   for (const auto& event : setup.events)
     if (event.stops)
-      throw ConfigError(
-          fmt::format("--estimate-error compares two runs over the whole time, and the event '{}' stops "
-                      "them: remove one of the two",
-                      event.name));
+      throw ConfigError(fmt::format(
+          "--estimate-error compares two complete runs, but the event '{}' stops them: remove one of the two",
+          event.name));
 }
 
 std::size_t outputs_left(const Plan& plan) {
@@ -59,10 +56,10 @@ class DynamicAnalysis {
   RunResult run() {
     if (folder_.is_completed_without_checkpoint()) return accept_completed();
     const bool resumes = context_.earlier && context_.earlier->begun;
-    Checkpoint begin = resumes ? continued(std::move(*context_.earlier), setup_, context_.resolved, folder_)
+    Checkpoint begin = resumes ? resumed_checkpoint(std::move(*context_.earlier), setup_, context_.resolved, folder_)
                                : first_checkpoint(setup_, context_.resolved, folder_);
-    begin.effort = begin.effort + Effort{{}, setup_.wall_seconds, setup_.cpu_seconds};
-    // One that was killed after its last step still lacks its record.
+    begin.cost = begin.cost + TotalCost{{}, setup_.wall_seconds, setup_.cpu_seconds};
+    // A run killed after its last step is not "completed": it still lacks its record.
     if (resumes && is_complete(begin, setup_.scene) && begin.restarts.back().after == "completed")
       return nothing_to_do(begin.state.t);
     if (context_.request.estimate_error) {
@@ -71,9 +68,9 @@ class DynamicAnalysis {
     }
     RunObservers observers(setup_, folder_.path());
     resumes ? resume(begin, observers) : prepare_anew();
-    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts, model_keys(setup_.config));
+    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts, setup_.config);
     write_file(folder_.path() / "scene.yaml", {begin.scene});
-    // Killed from here on, it can be resumed.
+    // From here on, a killed run can be resumed.
     if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
     return compute(begin, observers, record);
   }
@@ -82,34 +79,34 @@ class DynamicAnalysis {
   void prepare_anew() {
     if (context_.request.resume)
       context_.listener.on_notice(
-          fmt::format("nothing to resume in {}: starts from the beginning", folder_.path().string()));
+          fmt::format("nothing to resume in {}: starts at the beginning", folder_.path().string()));
     folder_.prepare();
   }
 
   void resume(const Checkpoint& begin, RunObservers& observers) {
     observers.restore(begin);
     context_.listener.on_notice(fmt::format(
-        "resumes at t = {:.6g} s; the integrator starts anew there: a multistep method at order 1", begin.state.t));
+        "resumes at t = {:.6g} s; the integrator restarts there (multistep methods at order 1)", begin.state.t));
     if (const auto& changed = begin.restarts.back().changed; !changed.empty())
       context_.listener.on_notice("changed since the checkpoint: " + join(changed));
   }
 
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
     RunResult result{.scene = context_.scene, .folder = folder_.path()};
-    result.ranks = number_of(context_.request.ranks);
+    result.ranks = num_ranks(context_.request.ranks);
     result.outcome = integrate(begin, observers, result.resumable);
     result.failed_alone = failed_alone_;
     if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
     if (setup_.linearity && result.outcome.status != Outcome::Status::interrupted)
-      result.outgrown = setup_.linearity->why_to_start_again();
-    if (result.outgrown) return result;
-    result.motion = motion_result(result.outcome, begin.effort, observers);
+      result.kinematics_restart = setup_.linearity->kinematics_restart();
+    if (result.kinematics_restart) return result;
+    result.motion = motion_result(result.outcome, begin.cost, observers);
     if (observers.extremes) result.extremes = observers.extremes->found();
-    if (observers.strains) result.passed_strain = observers.strains->worst();
+    if (observers.strains) result.exceeded_strain = observers.strains->worst();
     record.finish(result);
-    if (parts_ && result.outcome.status == Outcome::Status::completed) {
-      result.motion->accumulated = accumulated(result.outcome.last.t);
+    if (segments_ && result.outcome.status == Outcome::Status::completed) {
+      result.motion->segment_error = segment_error(result.outcome.last.t);
       record.finish(result);
     }
     context_.listener.on_result(result);
@@ -120,7 +117,7 @@ class DynamicAnalysis {
   }
 
   Outcome integrate(const Checkpoint& begin, RunObservers& observers, bool& resumable) {
-    Checkpointer checkpointer(folder_.checkpoint(), begin, checkpoint_times(setup_.scene), observers.kept(),
+    Checkpointer checkpointer(folder_.checkpoint(), begin, checkpoint_times(setup_.scene), observers.checkpointed(),
                               *setup_.built.model, *setup_.integrator);
     Plan plan = plan_of(setup_.scene, begin.schedule);
     const State state = setup_.built.model->part(begin.state);
@@ -129,31 +126,32 @@ class DynamicAnalysis {
     const auto progress = context_.listener.on_begin(setup_);
     auto all = observers.all(progress.get(), checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());
-    if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
+    if (setup_.scene.output.accumulated_error) all.push_back(&segments_.emplace(*setup_.built.model));
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     Outcome outcome = orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
     failed_alone_ = outcome.status == Outcome::Status::failed && failed_alone(setup_.built.model->ranks());
     if (!failed_alone_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
-    const bool kept = keep(outcome, begin.begun, checkpointer);
-    resumable = kept || setup_.scene.checkpoint;
+    const bool is_written = write_last_checkpoint(outcome, begin.begun, checkpointer);
+    resumable = is_written || setup_.scene.checkpoint;
     return outcome;
   }
 
-  // At most: displacements and velocities, three vectors of the watch over linear kinematics, and small parts.
+  // Upper bound of the checkpoint's size: displacements and velocities, three vectors of LinearityWatch, and small
+  // parts.
   std::size_t bytes_of_checkpoint() const {
     constexpr std::size_t kSmallParts = 64 << 10;
     return 5 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) + kSmallParts +
            2 * context_.resolved.size();
   }
 
-  // False if it cannot be written: a run that has failed is not to fail in another way.
-  bool keep(const Outcome& outcome, bool resumed, Checkpointer& checkpointer) {
+  // False if the checkpoint cannot be written, which must not hide the failure of a run.
+  bool write_last_checkpoint(const Outcome& outcome, bool resumed, Checkpointer& checkpointer) {
     try {
       if (failed_alone_ || !outcome.between_steps)
         return outcome.reason == Reason::disk && checkpointer.write_remembered();
-      if (!keeps_last_state(setup_.scene, outcome, resumed)) return false;
+      if (!needs_last_checkpoint(setup_.scene, outcome, resumed)) return false;
       checkpointer.write(outcome.last);
       return true;
     } catch (const RunError& e) {
@@ -162,7 +160,7 @@ class DynamicAnalysis {
     }
   }
 
-  MotionResult motion_result(const Outcome& outcome, const Effort& before, const RunObservers& observers) const {
+  MotionResult motion_result(const Outcome& outcome, const TotalCost& before, const RunObservers& observers) const {
     const Integrator& integrator = *setup_.integrator;
     const InversionWatch& inversion = observers.inversion;
     Statistics statistics = integrator.statistics();
@@ -170,36 +168,39 @@ class DynamicAnalysis {
     MotionResult out{.integrator = setup_.config.at("integrator").at("type").text(),
                      .decisions = integrator.decisions(),
                      .warnings = integrator.result_warnings(),
-                     .effort = before + Effort{statistics, outcome.wall_seconds, outcome.cpu_seconds},
+                     .cost = before + TotalCost{statistics, outcome.wall_seconds, outcome.cpu_seconds},
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
     if (const auto& e = observers.energy)
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(), e->states()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
-    out.silent_events = observers.silent_events();
+    out.events_not_found = observers.events_not_found();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     if (out.mesh_error && outcome.status == Outcome::Status::completed)
       out.mesh_error =
-          look_closer(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true, *out.mesh_error).error;
+          estimate_mesh_error(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true, *out.mesh_error)
+              .error;
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
     if (outcome.status == Outcome::Status::failed && !failed_alone_)
       out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }
 
-  // None where it cannot be had: a run that has completed is not to fail in another way.
-  std::optional<AccumulatedError> accumulated(double end) {
+  // Empty if the estimate fails, which must not fail a completed run.
+  std::optional<SegmentErrorEstimate> segment_error(double end) {
     try {
-      return accumulated_error(setup_, *setup_.integrator, *parts_, end, context_.interrupt);
+      return segment_error_estimate(setup_, *setup_.integrator, *segments_, end, context_.interrupt);
     } catch (const std::exception& e) {
-      context_.listener.on_warning(fmt::format("how far errors have added up is not known: {}", e.what()));
+      context_.listener.on_warning(
+          fmt::format("the accumulated integration error could not be estimated: {}", e.what()));
       return std::nullopt;
     }
   }
 
-  // The run once more, for the estimate of its error.
+  // Repeats the run for the error estimate.
   ErrorEstimate repeat() {
-    context_.listener.on_notice(fmt::format("repeats with {} to estimate the error", join(estimator_->refinement())));
+    context_.listener.on_notice(
+        fmt::format("repeats the run with {} to estimate the error", join(estimator_->refinement())));
     const auto progress = context_.listener.on_begin(setup_);
     return estimator_->estimate(progress ? std::vector{progress.get()} : std::vector<Observer*>{}, context_.interrupt);
   }
@@ -210,7 +211,7 @@ class DynamicAnalysis {
     return result;
   }
 
-  // A completed run without a checkpoint: it needs nothing, unless the scene has changed.
+  // Result for a completed run without a checkpoint. There is nothing to do, unless the scene has changed.
   RunResult accept_completed() const {
     const auto earlier = with_defaults(Config::from_file((folder_.path() / "scene.yaml").string()));
     const auto changed = changed_keys(earlier, Config::from_text(context_.resolved));
@@ -218,8 +219,8 @@ class DynamicAnalysis {
     if (!longer && refused_changes(changed).empty())
       return nothing_to_do(read_number(earlier.at("time").at("end"), {.unit = "s"}));
     throw ConfigError(folder_.path().string(),
-                      fmt::format("holds a completed run without a checkpoint, which cannot be resumed with other "
-                                  "values ({}); start anew with --force in place of --resume",
+                      fmt::format("holds a completed run without a checkpoint, which cannot resume with other values "
+                                  "({}); start anew with --force instead of --resume",
                                   join(changed)));
   }
 
@@ -227,7 +228,7 @@ class DynamicAnalysis {
   const Setup& setup_;
   ResultFolder& folder_;
   std::optional<ErrorEstimator> estimator_;
-  std::optional<PartRecorder> parts_;
+  std::optional<SegmentRecorder> segments_;
   std::optional<MeshErrorRecorder> mesh_error_;
   bool failed_alone_ = false;  // the other ranks are waiting for this one
 };

@@ -14,7 +14,6 @@ namespace orthodyn {
 
 namespace {
 
-// Of plain numbers.
 template <class T>
 std::string bytes(const std::vector<T>& list) {
   return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
@@ -27,6 +26,16 @@ const char* kind_name(MeshMaterial::Kind kind) {
     case MeshMaterial::Kind::anisotropic: return "anisotropic";
   }
   return "";
+}
+
+// The versions at the first call, because libraries loaded later on demand would change them.
+const std::string& versions_of_libraries() {
+  static const std::string all = [] {
+    std::string text;
+    for (const auto& [library, version] : library_versions()) text += library + " " + version + "\n";
+    return text;
+  }();
+  return all;
 }
 
 }  // namespace
@@ -62,7 +71,7 @@ std::string mesh_fingerprint(const LoadedMesh& loaded) {
 }
 
 const std::string& FileFingerprints::of(const std::filesystem::path& file) {
-  std::error_code ignored;  // what cannot be read says so below
+  std::error_code ignored;  // an unreadable file throws below
   const auto changed = std::filesystem::last_write_time(file, ignored);
   const auto size = std::filesystem::file_size(file, ignored);
   Known& known = known_[file];
@@ -70,20 +79,6 @@ const std::string& FileFingerprints::of(const std::filesystem::path& file) {
     known = {changed, size, Fingerprint().add_file(file).text()};
   return known.print;
 }
-
-namespace {
-
-// As they were when this was called first: others come with what is loaded on demand.
-const std::string& versions_of_libraries() {
-  static const std::string all = [] {
-    std::string text;
-    for (const auto& [library, version] : library_versions()) text += library + " " + version + "\n";
-    return text;
-  }();
-  return all;
-}
-
-}  // namespace
 
 std::string code_fingerprint() {
   Fingerprint print;
@@ -97,7 +92,7 @@ std::string code_fingerprint() {
   std::istringstream listed(plugins ? plugins : "");
   for (std::string file; std::getline(listed, file, ':');) {
     print.add(file);
-    // One that the loader finds by itself is known by its name only.
+    // A plugin found on the loader's path contributes its name only.
     if (std::error_code ec; std::filesystem::is_regular_file(file, ec)) print.add_file(file);
   }
   return print.add(orthodyn_version()).add(blas_name()).add(versions_of_libraries()).text();

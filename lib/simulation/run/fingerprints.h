@@ -1,5 +1,5 @@
-// Fingerprints of what figures depend on besides the text of their input: the mesh, the program and the
-// machine.
+// Fingerprints of the inputs of a result other than its text: mesh, input files, program and machine. A changed
+// fingerprint makes a stored result invalid.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace orthodyn {
 
-// Of nodes, elements, regions, surfaces and sets of nodes, whatever files they came from.
+// Fingerprint of nodes, elements, regions, surfaces and node sets; independent of the file format.
 std::string mesh_fingerprint(const TetMesh& mesh);
 
-// The same with what the files say of materials and of elements.
+// Also includes the materials and cell data of the mesh file.
 std::string mesh_fingerprint(const LoadedMesh& loaded);
 
-// Of files, each of them read once for as long as its size and its time of change stay the same.
+// Fingerprints of files. A file is read again only if its size or modification time has changed.
 class FileFingerprints {
  public:
-  // Throws RunError if it cannot be read.
+  // Throws RunError if the file cannot be read.
   const std::string& of(const std::filesystem::path& file);
 
  private:
@@ -33,11 +33,11 @@ class FileFingerprints {
   std::map<std::filesystem::path, Known> known_;
 };
 
-// Of the code that integrates: the file that holds this function, plugins (of the environment variable
+// Fingerprint of the code: the library file that contains this function, plugins (environment variable
 // ORTHODYN_PLUGINS), and the versions of the libraries.
 std::string code_fingerprint();
 
-// Of what times depend on besides: processor, number of cores, threads of BLAS.
+// Fingerprint of the hardware that timings depend on: processor, number of cores, threads of BLAS.
 std::string machine_fingerprint();
 
 }  // namespace orthodyn

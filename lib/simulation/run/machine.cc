@@ -40,7 +40,7 @@ Json versions_json() {
   return out;
 }
 
-// What getrusage() says begins with what the parent process held.
+// getrusage() is not used: its maximum includes the memory of the parent process before exec().
 double peak_memory() {
   std::ifstream in("/proc/self/status");
   for (std::string line; std::getline(in, line);)

@@ -1,4 +1,4 @@
-// Where something was measured, and with which versions, as JSON.
+// The machine and the library versions of a result, as JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace orthodyn {
 
 Json machine_json();    // processor, cores, memory, vector instructions in use
 Json versions_json();   // orthodyn and every library
-double peak_memory();   // of this program so far, bytes
+double peak_memory();   // of this process so far, bytes
 std::string utc_now();  // 2026-01-31T12:00:00Z
 
 }  // namespace orthodyn

@@ -27,17 +27,17 @@ ModelSummary summarize(const Setup& setup) {
                    parts.mesh.order(),      laws_of(model),         term_descriptions(parts)};
   if (parts.mass_damping > 0)
     out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
-  out.kinematics = told_kinematics(setup);
+  out.kinematics = kinematics_summary(setup);
   if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
   out.buckles = setup.linearity && setup.linearity->unstable();
   return out;
 }
 
-std::string told_kinematics(const Setup& setup) {
-  std::string told = setup.linearity ? outcome_of(*setup.linearity) : "";
+std::string kinematics_summary(const Setup& setup) {
+  std::string summary = setup.linearity ? linearity_summary(*setup.linearity) : "";
   if (setup.kinematics && !setup.kinematics->reason.empty())
-    told += (told.empty() ? "" : "; ") + setup.kinematics->reason;
-  return told;
+    summary += (summary.empty() ? "" : "; ") + setup.kinematics->reason;
+  return summary;
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// What a model consists of, for results.
+// Describes the model in results.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace orthodyn {
 
 ModelSummary summarize(const Setup& setup);
 
-// What was taken for `kinematics: auto`, and why; "" where the scene says which.
-std::string told_kinematics(const Setup& setup);
+// The kinematics chosen for `auto`, the reason, and the error of linear kinematics; "" if not applicable.
+std::string kinematics_summary(const Setup& setup);
 
 }  // namespace orthodyn

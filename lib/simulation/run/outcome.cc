@@ -17,8 +17,8 @@ const char* status_word(Outcome::Status status) {
   return "";
 }
 
-// With one thread for loops BLAS has one as well (RunThreads): all that is done is done by this one, and what other
-// runs of the process do at the same time is not counted.
+// If loops use one thread, so does BLAS (RunThreads), and this thread does all the work. Its time leaves out other runs
+// in the same process.
 double cpu_seconds_now() {
   timespec now{};
   clock_gettime(loop_threads() == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -45,7 +45,7 @@ Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
     work(outcome);
   } catch (const std::bad_alloc&) {
     fail(outcome, "out of memory; use a coarser mesh or another linear solver", Reason::out_of_memory);
-  } catch (const ConfigError& e) {  // of a formula that has no value there
+  } catch (const ConfigError& e) {  // a formula without a value
     fail(outcome, e.what(), Reason::force);
   } catch (const RunError& e) {
     fail(outcome, e.what(), e.reason());

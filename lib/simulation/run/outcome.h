@@ -1,4 +1,4 @@
-// How a computation has ended.
+// How a computation ended.
 #pragma once
 
 #include <functional>
@@ -14,24 +14,24 @@ namespace orthodyn {
 struct Outcome {
   enum class Status { completed, interrupted, failed };
   Status status = Status::completed;
-  std::string message;                 // of a failure: what, where, what to try
-  std::string remark;                  // of a run that was completed before its end: which event it was
-  Reason reason = Reason::other;       // of a failure, for tables
-  std::optional<double> stepped_over;  // s: the start of a step that is too long for what a load does in it
-  std::optional<double> unresolved;    // s: where a load or a motion changes too fast to be looked at beforehand
+  std::string message;                 // of a failed run: what failed, where, what to try
+  std::string remark;                  // of a completed run that an event stopped: the event
+  Reason reason = Reason::other;       // of a failed run, for tables
+  std::optional<double> stepped_over;  // start of the first step much longer than the loads' step limit, s
+  std::optional<double> unresolved;    // time at which a load or a motion changes too fast to be sampled beforehand, s
   State last;                          // the last state reached
-  bool between_steps = true;           // false: an observer failed, and not all have seen the last state
+  bool between_steps = true;  // false if an observer failed, so that not all observers have seen the last state
   double wall_seconds = 0, cpu_seconds = 0;
-  Cost observation = {};  // of a motion, as in Statistics
+  Cost observation = {};  // time spent in observers, as in Statistics
 };
 
 const char* status_word(Outcome::Status status);  // "completed"
 
-// Processor time, s, of which differences count: of this thread where its loops run on one, else of the process.
-// Between the two of a difference the number of threads is the same.
+// Processor time (s); only differences are meaningful. Time of this thread if loops run on one thread, else of the
+// process. The number of threads must not change between the two calls of a difference.
 double cpu_seconds_now();
 
-// Calls `work`, turns the exception that stops it into the outcome, and calls on_end of the observers.
+// Calls `work`, turns an exception into a failed outcome, and calls on_end() of the observers.
 Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
                   const std::function<void(Outcome&)>& work);
 

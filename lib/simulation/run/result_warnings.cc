@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/simulation/error_estimate/estimated_error.h"
 
@@ -11,26 +12,30 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kMuchDrift = 0.01;  // of the largest energy
-constexpr double kMuchError = 0.05;  // of the largest displacement
-// Of the largest load: what is less is round-off of the internal forces of slender bodies, whose displacements are
-// right.
+constexpr double kLargeDrift = 0.01;  // of the largest energy
+constexpr double kLargeError = 0.05;  // of the largest displacement
+// Relative to the largest load. Smaller residuals are round-off of the internal forces of slender bodies, whose
+// displacements are accurate.
 constexpr double kLargeResidual = 1e-6;
 
-// From two states alone the elastic energy between them is not known: the largest energy may be larger.
-std::string drift_sentence(const EnergySummary& energy) {
-  return fmt::format(
-      "the energy balance drifts by {:.2g} of the largest energy{}: energy was made or lost by the integration, or "
-      "what fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off "
-      "the motion "
-      "is, or with a smaller integrator.rtol or integrator.step",
-      energy.relative_drift,
-      energy.states > 2 ? ""
-                        : ", of which only the start and the end were looked at (output.energy_times: steps looks at "
-                          "every step; the share may then be smaller)");
+template <class... Arguments>
+void add_warning(std::vector<std::string>& all, fmt::format_string<Arguments...> message, Arguments&&... arguments) {
+  all.push_back(fmt::format(message, std::forward<Arguments>(arguments)...));
 }
 
-// That which `auto` has taken, too.
+// With few states, the true largest energy may be larger than the one observed.
+std::string drift_sentence(const EnergySummary& energy) {
+  return fmt::format(
+      "the energy balance drifts by {:.2g} of the largest energy{}: the integration creates or loses energy, or does "
+      "not resolve the dissipation of fast vibrations. Estimate the error of the motion with --estimate-error, or use "
+      "a smaller integrator.rtol or integrator.step",
+      energy.relative_drift,
+      energy.states > 2 ? ""
+                        : ", evaluated at the start and the end only (output.energy_times: steps evaluates it at every "
+                          "step, and may find a larger energy)");
+}
+
+// Type of the integrator, or the method that `auto` has chosen.
 std::string method_of(const MotionResult& motion) {
   for (const auto& [key, value] : motion.decisions)
     if (key == "method") return value;
@@ -39,57 +44,52 @@ std::string method_of(const MotionResult& motion) {
 
 std::string accumulation_sentence(const MotionResult& motion) {
   return fmt::format(
-      "the errors of {} steps, each within its tolerance, may have added up to {:.2g} of the largest motion: most "
-      "often "
-      "it lags behind or runs ahead. Take smaller steps (integrator.rtol, integrator.step), {}, or see with "
-      "--estimate-error how far off "
-      "it is",
-      motion.effort.statistics.steps, motion.accumulated->error,
+      "the errors of {} steps, each within its tolerance, may have accumulated to {:.2g} of the largest motion, most "
+      "often as a phase error. Take smaller steps (integrator.rtol, integrator.step), use {}, or estimate the error "
+      "with --estimate-error",
+      motion.cost.statistics.steps, motion.segment_error->error,
       method_of(motion) == "arkode_dirk" ? "a smaller integrator.h_max" : "integrator.type: arkode_dirk");
 }
 
 std::string mesh_sentence(const ModelSummary& model, double error) {
   return fmt::format(
-      "the mesh is coarse for this motion: of the elastic energy about {:.2g} is its error. Deflections are too small "
-      "and frequencies too high. {}, and compare (frames with the field mesh_error show where)",
+      "the mesh is coarse for this motion: its error is about {:.2g} of the elastic energy. Deflections are too small "
+      "and frequencies too high. {}, and compare (the frame field mesh_error shows where)",
       error, finer_mesh(model.order));
 }
 
 constexpr const char* kBuckles =
-    "the body buckles below these loads, which linear kinematics do not show. Take elasticity.kinematics: auto, or "
-    "corotational; analysis: buckling tells the load factors";
+    "the body buckles below these loads, which linear kinematics do not show. Use elasticity.kinematics: auto or "
+    "corotational; analysis: buckling computes the load factors";
 
 constexpr const char* kUnsymmetricLoads =
-    "the stiffness of a pressure that follows a surface with a free edge is unsymmetric; buckling takes its symmetric "
-    "part, so that load factors may be off and instability by growing vibrations (flutter) is not found. analysis: "
-    "static "
-    "follows the path with all of it";
+    "the stiffness of a follower pressure on a surface with a free edge is unsymmetric; buckling uses its symmetric "
+    "part: load factors may be inaccurate, and flutter is not found. analysis: static follows the path with the full "
+    "stiffness";
 
 std::string linearity_sentence(double error) {
-  constexpr const char* kRemedy = "Take elasticity.kinematics: auto, or corotational";
+  constexpr const char* kRemedy = "Use elasticity.kinematics: auto or corotational";
   if (!std::isfinite(error))
     return fmt::format(
-        "how far linear kinematics are off could not be estimated, for rotations or stretches are too "
-        "large for them. {}",
+        "the error of linear kinematics could not be estimated: rotations or stretches are too large for them. {}",
         kRemedy);
   return fmt::format(
-      "linear kinematics are off by about {:.2g} of the motion: rotations or stretches are too large "
-      "for them. {}",
+      "linear kinematics are off by about {:.2g} of the motion: rotations or stretches are too large for them. {}",
       error, kRemedy);
 }
 
-// What steps may have missed of loads and of the motion of supports.
+// Features of loads and support motions that steps may have missed.
 void add_warnings(const Outcome& outcome, std::vector<std::string>& all) {
   if (outcome.stepped_over)
-    all.push_back(
-        fmt::format("the step after t = {:.4g} s is long against what a load or a support does in it, and fixed: much "
-                    "of that is missed. Lower integrator.step, or leave it to error control (integrator.rtol)",
-                    *outcome.stepped_over));
+    add_warning(all,
+                "the fixed step after t = {:.4g} s is longer than a load or a support motion allows, and misses part "
+                "of it. Lower integrator.step, or use error control (integrator.rtol)",
+                *outcome.stepped_over);
   if (outcome.unresolved)
-    all.push_back(
-        fmt::format("a formula of a load or a support jumps, or changes within less than a {}th of the run, at t = "
-                    "{:.4g} s: steps may miss it. Name the times of jumps by `kinks`, or set integrator.h_max",
-                    StepLimits::kMostParts, *outcome.unresolved));
+    add_warning(all,
+                "the formula of a load or a support jumps, or changes within less than 1/{} of the run, at t = {:.4g} "
+                "s: steps may miss it. List the times of jumps in `kinks`, or set integrator.h_max",
+                StepLimits::kMostParts, *outcome.unresolved);
 }
 
 void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<std::string>& all) {
@@ -97,22 +97,21 @@ void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<st
   const auto few = std::find_if(extremes.begin(), extremes.end(),
                                 [](const RecordedExtreme& extreme) { return extreme.states < kFewStates; });
   if (few != extremes.end())
-    all.push_back(
-        fmt::format("extremes are those of {}: peaks between them are missed; output.history: {{steps: "
-                    "true}} looks at every step",
-                    counted(few->states, "state")));
+    add_warning(
+        all,
+        "extremes are those of {}: peaks between them are missed. output.history: {{steps: true}} records every step",
+        counted(few->states, "state"));
 }
 
 void add_warnings(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
   if (!(equilibrium.det_f.value > 0))
-    all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
-                              equilibrium.det_f.element, equilibrium.det_f.value));
+    add_warning(all, "element {} is inverted (det F = {:.3g}): this equilibrium is meaningless",
+                equilibrium.det_f.element, equilibrium.det_f.value);
   if (equilibrium.residual_above_tolerance && !(equilibrium.residual <= kLargeResidual * equilibrium.largest_load))
-    all.push_back(
-        fmt::format("the residual, {:.2g} of the largest load, is above statics.solver.rtol, though Newton's next "
-                    "correction is below it: most often by the round-off of large internal forces. Raise "
-                    "statics.solver.rtol",
-                    equilibrium.residual / equilibrium.largest_load));
+    add_warning(all,
+                "the residual, {:.2g} of the largest load, is above statics.solver.rtol, though Newton's next "
+                "correction is below it: most often round-off of large internal forces. Raise statics.solver.rtol",
+                equilibrium.residual / equilibrium.largest_load);
 }
 
 }  // namespace
@@ -122,10 +121,9 @@ std::vector<std::string> result_warnings(const RunResult& result) {
   if (result.buckling && result.buckling->unsymmetric) all.push_back(kUnsymmetricLoads);
   add_warnings(result.outcome, all);
   if (result.equilibrium) add_warnings(*result.equilibrium, all);
-  if (const auto& strain = result.passed_strain)
-    all.push_back(fmt::format("{} (the most at {} {:.4g}{})", strain->sentence,
-                              result.equilibrium ? "load factor" : "t =", strain->time,
-                              result.equilibrium ? "" : " s"));
+  if (const auto& strain = result.exceeded_strain)
+    add_warning(all, "{} (largest at {} {:.4g}{})", strain->sentence,
+                result.equilibrium ? "load factor" : "t =", strain->time, result.equilibrium ? "" : " s");
   for (auto& sentence : exceeded_strengths(result.extremes, !result.motion)) all.push_back(std::move(sentence));
   if (result.motion) add_few_states(result.extremes, all);
   const auto& mesh = result.motion        ? result.motion->mesh_error
@@ -135,17 +133,17 @@ std::vector<std::string> result_warnings(const RunResult& result) {
   if (mesh)
     if (auto sentence = stress_warning(*mesh, result.model.order); !sentence.empty())
       all.push_back(std::move(sentence));
-  if (mesh && !mesh->blind.empty()) all.push_back(blindness_warning(mesh->blind));
-  if (const auto& error = result.model.linear_error; error && *error > kMuchError)
+  if (mesh && !mesh->locking_risk.empty()) all.push_back(locking_warning(mesh->locking_risk));
+  if (const auto& error = result.model.linear_error; error && *error > kLargeError)
     all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));
   if (const auto& motion = result.motion) {
     if (!(motion->det_f.value > 0))
-      all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,
-                                motion->det_f.time, motion->det_f.value));
-    all.insert(all.end(), motion->doubts.begin(), motion->doubts.end());
-    if (motion->energy && !(motion->energy->relative_drift <= kMuchDrift))
+      add_warning(all, "element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,
+                  motion->det_f.time, motion->det_f.value);
+    all.insert(all.end(), motion->warnings.begin(), motion->warnings.end());
+    if (motion->energy && !(motion->energy->relative_drift <= kLargeDrift))
       all.push_back(drift_sentence(*motion->energy));
-    if (motion->accumulated && !(motion->accumulated->error <= kMuchError))
+    if (motion->segment_error && !(motion->segment_error->error <= kLargeError))
       all.push_back(accumulation_sentence(*motion));
   }
   return all;

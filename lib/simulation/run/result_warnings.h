@@ -1,4 +1,4 @@
-// What in a result should not be taken on trust, though it was computed to its end.
+// Automatic checks of a completed result.
 #pragma once
 
 #include <string>
@@ -8,10 +8,9 @@
 
 namespace orthodyn {
 
-// A sentence each: what was found, what it means, what to do. Inverted elements; a residual above its tolerance; a
-// coarse mesh; loads that steps may have missed; linear kinematics that are far off; an energy balance that drifts by
-// more than a hundredth of the largest energy; errors of a long run that may have added up; what the integrator itself
-// doubts.
+// One sentence for each finding, with its meaning and a remedy: inverted elements, a residual above its tolerance, a
+// coarse mesh, loads that steps may have missed, a large error of linear kinematics, an energy balance that drifts by
+// more than 1 % of the largest energy, a large accumulated integration error, and warnings of the integrator.
 std::vector<std::string> result_warnings(const RunResult& result);
 
 }  // namespace orthodyn

@@ -10,13 +10,13 @@ namespace orthodyn {
 
 namespace {
 
-// Times at which something is due, ascending.
-class Agenda {
+// Ascending times at which something is due.
+class DueTimes {
  public:
-  explicit Agenda(std::vector<double> times) : times_(std::move(times)) {}
+  explicit DueTimes(std::vector<double> times) : times_(std::move(times)) {}
 
-  // Times that differ from one of these (ascending) by round-off are meant to be there.
-  void meet(const std::vector<double>& others, double tiny) {
+  // Moves times to one of `others` (ascending) if they differ by less than `tiny`.
+  void snap_to(const std::vector<double>& others, double tiny) {
     for (double& t : times_) {
       const auto near = std::lower_bound(others.begin(), others.end(), t - tiny);
       if (near != others.end() && *near <= t + tiny) t = *near;
@@ -26,7 +26,7 @@ class Agenda {
   void skip_until(double last, double tiny) {
     while (next_ < times_.size() && times_[next_] <= last + tiny) ++next_;
   }
-  // Clamps output times to the resume time.
+  // Moves times before t, the time of resuming, to t.
   void begin_at(double t) {
     for (double& time : times_) time = std::max(time, t);
   }
@@ -34,8 +34,8 @@ class Agenda {
   bool empty() const { return times_.empty(); }
   const std::vector<double>& times() const { return times_; }
   double next() const { return next_ < times_.size() ? times_[next_] : std::numeric_limits<double>::infinity(); }
-  // True, and done, if it is due at t.
-  bool take(double t) { return next() == t && ++next_; }
+  // True if a time is due at t. This time is then done, and the next one becomes due.
+  bool take_if_due(double t) { return next() == t && ++next_; }
 
  private:
   std::vector<double> times_;
@@ -63,9 +63,9 @@ class Driver {
       if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > round_off && plan.end - t > round_off)
         stops_.push_back(t);
     stops_.push_back(plan.end);
-    outputs_.meet(stops_, tiny_);
-    history_.meet(stops_, tiny_);
-    history_.meet(outputs_.times(), tiny_);
+    outputs_.snap_to(stops_, tiny_);
+    history_.snap_to(stops_, tiny_);
+    history_.snap_to(outputs_.times(), tiny_);
     if (plan.delivered) {
       outputs_.skip_until(*plan.delivered, tiny_);
       history_.skip_until(plan.history_delivered, tiny_);
@@ -78,18 +78,18 @@ class Driver {
     outcome_.between_steps = false;
     {
       const Measure measure(outcome_.observation);
-      tell_of_start({model_, outcome_.last});
+      notify_start({model_, outcome_.last});
     }
     outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
       if (!advance_to(stop)) return;
-      if (stop < plan_.end) integrator_.start(outcome_.last);  // no step across a kink
+      if (stop < plan_.end) integrator_.start(outcome_.last);  // restarts, so that no step crosses a kink of a load
     }
   }
 
  private:
-  void tell_of_start(const ObservedState& start) {
+  void notify_start(const ObservedState& start) {
     for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
     if (plan_.events && !plan_.delivered) plan_.events->start(start);
   }
@@ -107,7 +107,7 @@ class Driver {
       if (!integrator_.has_accurate_interpolation()) limit = std::min(limit, history_.next());
       if (integrator_.adaptive()) limit = std::min(limit, seen_until);
       StepInfo info = integrator_.step(limit);
-      if (!outcome_.stepped_over && info.t > seen_until + kMuchLonger * (seen_until - begin))
+      if (!outcome_.stepped_over && info.t > seen_until + kLongStep * (seen_until - begin))
         outcome_.stepped_over = begin;
       outcome_.between_steps = false;
       const Measure measure(outcome_.observation);
@@ -116,7 +116,7 @@ class Driver {
       if (stopper) deliver_last_output(info.t);
       integrator_.interpolate(info.t, outcome_.last);
       const ObservedState end(model_, outcome_.last);
-      if (plan_.history_at_steps) tell_history(end);
+      if (plan_.history_at_steps) notify_history(end);
       for (auto* o : observers_) o->on_step(info, end, integrator_);
       outcome_.between_steps = true;
       if (stopper) {
@@ -127,7 +127,7 @@ class Driver {
     return true;
   }
 
-  // The event that stops the run, if any: the step then is taken to end there.
+  // Returns the event that stops the run, if any; the step then ends at the event.
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
     const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
@@ -150,7 +150,7 @@ class Driver {
     for (;;) {
       const double t = std::min(outputs_.next(), history_.next());
       if (t > until) return;
-      const bool is_output = outputs_.take(t), is_history = history_.take(t);
+      const bool is_output = outputs_.take_if_due(t), is_history = history_.take_if_due(t);
       deliver(t, is_output, is_history || (is_output && history_follows_outputs()));
     }
   }
@@ -161,18 +161,18 @@ class Driver {
     State state;
     integrator_.interpolate(t, state);
     const ObservedState observed(model_, state);
-    if (is_history) tell_history(observed);  // first: an output may end the run (LinearityWatch)
+    if (is_history) notify_history(observed);  // first: on_output may throw (LinearityWatch)
     if (!is_output) return;
     for (auto* o : observers_) o->on_output(observed);
     last_output_ = t;
   }
 
-  void tell_history(const ObservedState& observed) {
+  void notify_history(const ObservedState& observed) {
     for (auto* o : observers_) o->on_history(observed);
     last_history_ = observed.t();
   }
 
-  // Where outputs are wanted at all, there is one at the end.
+  // Delivers output and history at t, the end of the run, if the plan has any and this has not yet been done.
   void deliver_last_output(double t) {
     const bool is_output = !outputs_.empty() && last_output_ != t;
     const bool is_history = history_follows_outputs() ? is_output : !history_.empty() && last_history_ != t;
@@ -185,12 +185,12 @@ class Driver {
   const std::vector<Observer*>& observers_;
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
-  static constexpr double kMuchLonger = 3;
+  static constexpr double kLongStep = 3;
 
-  double tiny_;  // outputs that are closer to a stop than this are meant to be there
+  double tiny_;  // outputs closer than this to a stop are moved to the stop, s
   StepLimits limits_;
   std::vector<double> stops_;
-  Agenda outputs_, history_;
+  DueTimes outputs_, history_;
   std::optional<double> last_output_, last_history_;
 };
 
@@ -204,7 +204,7 @@ std::vector<double> evenly_spaced(double start, double end, int frames) {
 
 std::vector<double> by_interval(double start, double end, double interval) {
   std::vector<double> times;
-  // Late times have larger round-off than an interval may allow for.
+  // At late times round-off may exceed 1e-9 of the interval.
   const double round_off = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(start), std::abs(end));
   const double same = std::max(1e-9 * interval, round_off);
   for (long k = 1;; ++k) {

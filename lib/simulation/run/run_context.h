@@ -1,9 +1,8 @@
-// What the analyses of a scene are given, so that all are one kind of function.
+// The request for a run, and the common arguments of the dynamic, static and buckling analyses.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,31 +15,29 @@
 
 namespace orthodyn {
 
-// How a scene is to be run.
 struct RunRequest {
-  std::filesystem::path folder;  // for the results
-  bool force = false;            // replace an earlier result in the folder
-  bool resume = false;           // go on from the checkpoint in the folder, or begin if there is no result yet
-  bool estimate_error = false;   // then repeat the run more accurately, and compare
-  bool any_output_size = false;  // also a million frames and more (volume.h)
-  const Ranks* ranks = nullptr;  // those that compute it together, all of which ask for it; null: this process alone
+  std::filesystem::path folder;     // results
+  bool force = false;               // replace an earlier result in the folder
+  bool resume = false;              // resume from the checkpoint in the folder; start if there is no result yet
+  bool estimate_error = false;      // repeat the completed run more accurately, and compare
+  bool allow_large_output = false;  // permit a million frames or more (output_size.h)
+  const Ranks* ranks = nullptr;     // ranks that compute the scene together; null: this process alone
 };
 
 struct RunContext {
-  const std::string& scene;             // its file, as it was named
-  const std::vector<std::string>& set;  // what was changed in it
+  const std::string& scene;             // file name as given by the user
+  const std::vector<std::string>& set;  // assignments to the scene, PATH=VALUE
   const RunRequest& request;
   const Setup& setup;
-  const std::string& resolved;  // the scene with every default, as YAML
+  const std::string& resolved;  // scene with all defaults, as YAML
   ResultFolder& folder;
-  std::optional<Checkpoint> earlier;  // to go on from
+  std::optional<Checkpoint> earlier;  // checkpoint to resume from; empty for a new run
   const std::atomic<bool>& interrupt;
   RunListener& listener;
 };
 
-// Computes the scene that is set up, writes its results into the folder, and returns what came of it. Throws
-// ConfigError before anything is written, and RunError for files that cannot be written; a computation that could not
-// go on is a result.
+// Runs the analysis, writes its results into the folder and returns them. Throws ConfigError before anything is
+// written, RunError if a file cannot be written. A failed computation is a result, not an exception.
 using RunAnalysis = RunResult (*)(RunContext context);
 
 RunResult run_dynamic_analysis(RunContext context);

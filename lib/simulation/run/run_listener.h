@@ -1,4 +1,4 @@
-// What a run of a scene reports while it works. The library prints nothing: the program does.
+// Reports the progress of a run. The library prints nothing; the program does.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,17 @@ class RunListener {
  public:
   virtual ~RunListener() = default;
 
-  // Something is odd about the scene or the folder; the run goes on.
+  // Called for a warning about the scene or the folder; the run continues.
   virtual void on_warning(const std::string& /*text*/) {}
 
-  // What happens next: "resumes at t = 0.2 s; ...".
+  // Called for an announcement: "resumes at t = 0.2 s; ...".
   virtual void on_notice(const std::string& /*text*/) {}
 
-  // The computation begins. An observer of it, such as a progress bar, or null. Asked again where the run is repeated
-  // for an estimate of its error.
+  // Called when the computation starts. Returns an observer, such as a progress bar, or null. Called again when the run
+  // is repeated to estimate its error.
   virtual std::unique_ptr<Observer> on_begin(const Setup& /*setup*/) { return nullptr; }
 
-  // The computation is over. What follows: run.json, and the estimate of the error if it was asked for.
+  // Called when the computation has ended. The error estimate, if requested, follows.
   virtual void on_result(const RunResult& /*result*/) {}
 };
 

@@ -11,31 +11,75 @@ namespace orthodyn {
 
 namespace {
 
-// A path need not be UTF-8.
+Json json_of(const Config& value);
+
+// Integers are written without a decimal point.
+Json number_json(double x) {
+  constexpr double kExact = 9e15;
+  if (std::abs(x) < kExact && std::floor(x) == x) return static_cast<long>(x);
+  return x;
+}
+
+Json scalar_json(const Config& value) {
+  if (value.is_null()) return {};
+  if (value.reads_as_number()) return number_json(value.number());
+  const std::string text = value.text();
+  if (text == "true" || text == "false") return text == "true";
+  return text;
+}
+
+Json list_json(const Config& list) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < list.size(); ++k) out.push_back(json_of(list.at(k)));
+  return out;
+}
+
+Json section_json(const Config& section) {
+  Json out = Json::object();
+  for (const auto& key : section.keys())
+    if (Json value = json_of(section.at(key)); !value.is_null()) out[key] = std::move(value);
+  return out;
+}
+
+Json json_of(const Config& value) {
+  return value.is_map() ? section_json(value) : value.is_sequence() ? list_json(value) : scalar_json(value);
+}
+
+// The model sections of a resolved scene, key by key. Values are as in the input (SI, or text with a unit); sections
+// without a value are omitted.
+Json model_sections(const Config& resolved) {
+  Json out = Json::object();
+  for (const char* key : {"mesh", "materials", "regions", "elasticity", "mass", "damping", "gravity", "loads", "terms",
+                          "clamps", "motions", "start", "initial"})
+    if (resolved.has(key) && !resolved.at(key).is_null()) out[key] = json_of(resolved.at(key));
+  return out;
+}
+
+// Replaces invalid UTF-8, which file names may contain.
 std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json begin_json(const std::string& scene, const std::vector<std::string>& set, const std::vector<Restart>& restarts,
-                const Json& given) {
+                const Json& model_keys) {
   Json out{{"status", "running"},
            {"scene", scene},
            {"set", set},
            {"versions", versions_json()},
            {"machine", machine_json()},
            {"threads", loop_threads()},
-           {"model", {{"given", given}}}};
+           {"model", {{"given", model_keys}}}};
   for (const auto& r : restarts)
     out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
   return out;
 }
 
-Json model_json(const ModelSummary& model, const Json& given) {
+Json model_json(const ModelSummary& model, const Json& model_keys) {
   Json terms = Json::array();
   for (const auto& term : model.terms) terms.push_back(term);
   Json out{{"nodes", model.nodes},
            {"elements", model.elements},
            {"unknowns", model.unknowns},
            {"terms", terms},
-           {"given", given}};
+           {"given", model_keys}};
   if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
   if (model.linear_error && std::isfinite(*model.linear_error)) out["linear_error"] = *model.linear_error;
   return out;
@@ -95,9 +139,9 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
   for (const auto& [key, value] : motion.decisions) decisions[key] = value;
   out["integrator"] = decisions;
   out["time_reached"] = outcome.last.t;
-  out["wall_seconds"] = motion.effort.wall_seconds;
-  out["cpu_seconds"] = motion.effort.cpu_seconds;
-  out["statistics"] = to_json(motion.effort.statistics);
+  out["wall_seconds"] = motion.cost.wall_seconds;
+  out["cpu_seconds"] = motion.cost.cpu_seconds;
+  out["statistics"] = to_json(motion.cost.statistics);
   out["factor_bytes"] = motion.factor_bytes;
   out["smallest_det_f"] = {
       {"value", motion.det_f.value}, {"element", motion.det_f.element}, {"time", motion.det_f.time}};
@@ -105,8 +149,8 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
   if (motion.momentum)
     out["momentum"] = {{"angular_drift", motion.momentum->angular_drift},
                        {"angular_scale", motion.momentum->angular_scale}};
-  if (const auto& e = motion.accumulated)
-    out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts},     {"steps_each", e->steps},
+  if (const auto& e = motion.segment_error)
+    out["accumulated_error"] = {{"error", e->error}, {"parts", e->segments},  {"steps_each", e->steps},
                                 {"since", e->since}, {"against", e->against}, {"wall_seconds", e->wall_seconds}};
   if (motion.error) out["estimated_error"] = error_json(*motion.error);
   if (motion.rtol) out["rtol"] = *motion.rtol;
@@ -171,8 +215,9 @@ void add_buckling(Json& out, const BucklingResult& buckling, const Outcome& outc
 }  // namespace
 
 RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
-                     const std::vector<Restart>& restarts, const Json& given)
-    : begin_(begin_json(scene, set, restarts, given)), file_(folder / kRunRecordFile, text(begin_)) {}
+                     const std::vector<Restart>& restarts, const Config& resolved)
+    : begin_(begin_json(scene, set, restarts, model_sections(resolved))),
+      file_(folder / kRunRecordFile, text(begin_)) {}
 
 void RunRecord::finish(const RunResult& result) const {
   Json out = begin_;

@@ -1,4 +1,4 @@
-// What came out of a run of a scene: the values that run.json and the program's summary are written from.
+// The result of a run: source of run.json and of the program's summary.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "lib/ode/statistics.h"
-#include "lib/simulation/checkpoint/effort.h"
-#include "lib/simulation/error_estimate/accumulated_error.h"
+#include "lib/simulation/checkpoint/total_cost.h"
 #include "lib/simulation/error_estimate/error_estimate.h"
+#include "lib/simulation/error_estimate/linearity_watch.h"
 #include "lib/simulation/error_estimate/mesh_error.h"
+#include "lib/simulation/error_estimate/segment_error_estimate.h"
 #include "lib/simulation/output/balance.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/strain_watch.h"
-#include "lib/simulation/run/kinematics.h"
 #include "lib/simulation/run/outcome.h"
 #include "lib/statics/critical_point.h"
 
@@ -24,21 +24,21 @@ namespace orthodyn {
 struct ModelSummary {
   std::size_t nodes = 0, elements = 0;
   int unknowns = 0;
-  int order = 1;                   // of its elements
-  std::string elasticity;          // the laws of its regions
-  std::vector<std::string> terms;  // in words
-  std::string kinematics = {};     // what was taken for `auto`, and why, and how far linear kinematics are off; or ""
-  std::optional<double> linear_error = {};  // of these, of the motion; infinite where it is a good part
-  bool buckles = false;                     // below loads that linear kinematics carry
+  int order = 1;                   // of the elements
+  std::string elasticity;          // the laws of the regions
+  std::vector<std::string> terms;  // descriptions
+  std::string kinematics = {};     // kinematics_summary(): choice for `auto`, and the error of linear kinematics; or ""
+  std::optional<double> linear_error = {};  // relative error of linear kinematics; infinite if too large to estimate
+  bool buckles = false;                     // true if the body buckles below loads that linear kinematics carry
 };
 
 struct EnergySummary {
   EnergyBalance last;           // J
-  double time = 0;              // of that, s
-  double drift = 0, scale = 0;  // J: of the balance, and the largest energy
+  double time = 0;              // of `last`, s
+  double drift = 0, scale = 0;  // largest |change| of the balance; largest energy; J
   double relative_drift = 0;
-  EnergyTimes times = EnergyTimes::outputs;  // of which the drift is the largest
-  std::size_t states = 0;                    // how many these are
+  EnergyTimes times = EnergyTimes::outputs;  // times at which the drift was evaluated
+  std::size_t states = 0;                    // number of these times
 };
 
 struct MomentumSummary {
@@ -52,82 +52,82 @@ struct SmallestDetF {
   double time = 0;  // s
 };
 
-// Where a run failed: the places that are likely to be at fault.
+// Places where the cause of a failure is likely: the element with the smallest det F, and the fastest node.
 struct FailurePlace {
   double smallest_det_f = 0, largest_speed = 0;  // -, m/s
   long element = 0, node = 0;
 };
 
-// Of a dynamic analysis.
+// Result of a dynamic analysis.
 struct MotionResult {
-  std::string integrator = {};                                      // its type
+  std::string integrator = {};                                      // its `type`
   std::vector<std::pair<std::string, std::string>> decisions = {};  // of the integrator: key and value
   std::vector<std::string> warnings = {};                           // of the integrator
-  Effort effort = {};                                               // over all restarts
+  TotalCost cost = {};                                              // over all restarts
   std::size_t factor_bytes = 0;
   SmallestDetF det_f = {};
-  std::optional<EnergySummary> energy = {};          // where the scene asks for energy.csv
-  std::optional<MomentumSummary> momentum = {};      // likewise momentum.csv
-  std::optional<FailurePlace> failure = {};          // of a run that failed
-  std::optional<AccumulatedError> accumulated = {};  // of a long run
-  std::optional<ErrorEstimate> error = {};           // if it was asked for
-  std::optional<MeshError> mesh_error = {};          // of a body that is deformed
-  std::optional<double> rtol = {};                   // of the integrator
-  std::vector<std::string> silent_events = {};       // that were asked for and never happened
+  std::optional<EnergySummary> energy = {};                // if the scene writes energy.csv
+  std::optional<MomentumSummary> momentum = {};            // if the scene writes momentum.csv
+  std::optional<FailurePlace> failure = {};                // of a failed run
+  std::optional<SegmentErrorEstimate> segment_error = {};  // of a long run
+  std::optional<ErrorEstimate> error = {};                 // if requested
+  std::optional<MeshError> mesh_error = {};                // if the body is deformed
+  std::optional<double> rtol = {};                         // of the integrator
+  std::vector<std::string> events_not_found = {};          // events of the scene that never occurred
 };
 
-// Where a probe's node has gone, m, and how far the mesh puts that off: true less computed.
+// Displacement of a probe's node, and its error due to the mesh (exact less computed).
 struct ProbedDisplacement {
   std::string probe;
-  Vec3 value, mesh_error;  // m; NaN where the latter is not known
+  Vec3 value, mesh_error;  // m; mesh_error is NaN if unknown
 };
 
-// Of a static analysis: the last equilibrium.
+// Result of a static analysis: the last equilibrium.
 struct EquilibriumResult {
   double loads_at_time = 0;  // s
   long load_steps = 0, rejected_load_steps = 0;
-  long jumps = 0;  // down the energy to another path
+  long jumps = 0;  // dynamic jumps to another equilibrium path with less energy
   std::vector<CriticalPoint> critical_points = {};
-  std::optional<int> unstable = {};       // directions in which it is unstable; none: not known
-  bool unsymmetric = false;               // K is: critical points are where its determinant changes its sign
-  double largest_displacement = 0;        // m, of a coordinate
-  double residual = 0, largest_load = 0;  // N, of a coordinate
+  std::optional<int> unstable = {};  // number of unstable directions; empty if unknown
+  bool unsymmetric = false;          // stiffness is unsymmetric: critical points are sign changes of its determinant
+  double largest_displacement = 0;   // of a coordinate, m
+  double residual = 0, largest_load = 0;  // of a coordinate, N
   bool residual_above_tolerance = false;
-  std::string solver = {};  // its linear solver
+  std::string solver = {};  // the linear solver
   Statistics statistics = {};
   SmallestDetF det_f = {};
   std::optional<MeshError> mesh_error = {};
-  std::vector<ProbedDisplacement> probes = {};  // of each probe
+  std::vector<ProbedDisplacement> probes = {};
 };
 
-// Of a buckling analysis, the lowest load factor first.
+// Result of a buckling analysis; lowest load factor first.
 struct BucklingResult {
   double loads_at_time = 0;  // s
-  int wanted = 0;            // modes that were asked for
-  double limit = 0;          // load factor above which no mode is told: linear statics reach a strain of a tenth
-  bool unsymmetric = false;  // the stiffness of a load is, and its symmetric part was taken
+  int wanted = 0;            // requested modes
+  double limit = 0;          // largest load factor reported, at which linear statics reach a strain of 0.1
+  bool unsymmetric = false;  // true if the stiffness of a load is unsymmetric; its symmetric part was used
   struct Mode {
     double load_factor = 0, residual = 0;
-    double mesh_error = 0;  // the share by which the mesh makes the factor too high, estimated
+    double mesh_error = 0;  // estimated relative error of the load factor due to the mesh; positive if it is too high
   };
   std::vector<Mode> modes = {};
 };
 
 struct RunResult {
-  std::string scene;  // its file
+  std::string scene;  // file name
   std::filesystem::path folder;
   Outcome outcome = {};
   ModelSummary model = {};
-  std::optional<MotionResult> motion = {};  // one of these,
+  std::optional<MotionResult> motion = {};  // one of the three is set; none if already complete
   std::optional<EquilibriumResult> equilibrium = {};
-  std::optional<BucklingResult> buckling = {};  // or none where nothing was to be done
+  std::optional<BucklingResult> buckling = {};
   std::vector<RecordedExtreme> extremes = {};
-  std::optional<PassedStrain> passed_strain = {};  // where the law's limit was passed
-  bool was_complete = false;                       // it was to be resumed, and had reached its end before
-  std::optional<Outgrown> outgrown = {};           // why it ended, and is to start again
-  int ranks = 1;                                   // that have computed it together
-  bool resumable = false;                          // the folder holds a checkpoint of a late state
-  bool failed_alone = false;                       // one of several ranks: the others do not know, and wait for it
+  std::optional<ExceededStrain> exceeded_strain = {};        // if the strain limit of the law was exceeded
+  bool was_complete = false;                                 // the run to be resumed was already complete
+  std::optional<KinematicsRestart> kinematics_restart = {};  // the run ended and must be repeated with other kinematics
+  int ranks = 1;                                             // number of ranks that computed the scene
+  bool resumable = false;                                    // the folder holds a checkpoint
+  bool failed_alone = false;                                 // only this rank failed; the others wait for it
 };
 
 }  // namespace orthodyn

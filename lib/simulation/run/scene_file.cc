@@ -3,15 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "lib/config/registry.h"
 #include "lib/core/spelling.h"
 #include "lib/ode/integrator.h"
-#include "lib/simulation/run/input_kind.h"
 
 namespace orthodyn {
 
 namespace {
+
+struct Mark {
+  InputFile kind;
+  const char *key, *words, *command;
+};
+
+constexpr std::array<Mark, 4> kMarks{{{InputFile::scene, "mesh", "a scene", "run"},
+                                      {InputFile::comparison, "scenes", "a comparison", "compare"},
+                                      {InputFile::sweep, "quantities", "a sweep", "sweep"},
+                                      {InputFile::stability, "cases", "a file of hard cases", "stability"}}};
 
 void change_integrator(Config& scene, const std::string& name, std::vector<std::string>& left_out) {
   const auto& known = Registry<IntegratorChoice>::entries();
@@ -34,6 +44,15 @@ void change_integrator(Config& scene, const std::string& name, std::vector<std::
 }
 
 }  // namespace
+
+void refuse_other_kinds(const Config& config, InputFile wanted) {
+  if (!config.is_map()) return;
+  const auto has = [&](const Mark& mark) { return config.has(mark.key); };
+  if (std::any_of(kMarks.begin(), kMarks.end(), [&](const Mark& m) { return m.kind == wanted && has(m); })) return;
+  if (const auto other = std::find_if(kMarks.begin(), kMarks.end(), has); other != kMarks.end())
+    throw ConfigError(config.file(),
+                      fmt::format("this is {}: orthodyn {} {}", other->words, other->command, config.file()));
+}
 
 Config read_scene_file(const std::string& file, const SceneChanges& changes, std::vector<std::string>* left_out) {
   return changed_scene(Config::from_file(file), changes, left_out);

@@ -1,4 +1,4 @@
-// A scene's file with changes to it, before it is validated and built (setup.h).
+// Reads a scene file and applies the changes of the command line. Neither validates nor builds it (see setup.h).
 #pragma once
 
 #include <optional>
@@ -9,21 +9,28 @@
 
 namespace orthodyn {
 
+// The kinds of YAML input files, told apart by a key that no other kind has.
+enum class InputFile { scene, comparison, sweep, stability };
+
+// Throws ConfigError for a file of another kind; the message names the command for that kind.
+void refuse_other_kinds(const Config& config, InputFile wanted);
+
 struct SceneChanges {
   std::vector<std::string> set = {};  // "path=value", the value in YAML
-  // Another integrator: of the scene's keys those that it has, too, are kept. `set` goes after it.
+  // Replaces integrator.type; keys of the section that the new integrator lacks are dropped. `set` is applied
+  // afterwards.
   std::optional<std::string> integrator = std::nullopt;
 };
 
-// `left_out`: filled with the keys of the scene's integrator that the one named in the changes does not have. Throws
-// ConfigError for a file that cannot be read, one that is no scene, and a change that does not apply.
+// `left_out`: receives the dropped keys of the integrator. Throws ConfigError for an unreadable file, a file that is
+// not a scene, and a change that does not apply.
 Config read_scene_file(const std::string& file, const SceneChanges& changes,
                        std::vector<std::string>* left_out = nullptr);
 
-// The same of a scene that was read before.
+// As above, for a scene already read.
 Config changed_scene(Config scene, const SceneChanges& changes, std::vector<std::string>* left_out = nullptr);
 
-// "integrator.max_order has no meaning for newmark and is left out"; "" where nothing is.
+// "integrator: max_order has no meaning for newmark and is left out"; "" if nothing was dropped.
 std::string left_out_sentence(const std::vector<std::string>& left_out, const SceneChanges& changes);
 
 }  // namespace orthodyn

@@ -26,7 +26,7 @@ void append(Warnings more, Warnings& all) {
   for (auto& warning : more) all.push_back(std::move(warning));
 }
 
-// Every name in `fields` must be an output of the model at one of the given places.
+// Throws unless each of `fields` is an output of the model at one of the allowed locations.
 void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
                   const SourceLocation& origin) {
   std::vector<std::string> names, short_names;
@@ -51,7 +51,7 @@ void check_outputs(const Scene& scene, const FemModel& model) {
     for (const auto& field : probe.fields)
       require_field_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
   }
-  ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws
+  ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws for an unknown quantity
 }
 
 void check_expectations(const Scene& scene, const FemModel& model) {
@@ -61,10 +61,10 @@ void check_expectations(const Scene& scene, const FemModel& model) {
       continue;
     }
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
-    if (quantity.components() > 1 && !(quantity.is_vector() && !e.at && e.take == Take::drift))
+    if (quantity.components() > 1 && !(quantity.is_vector() && !e.at && e.take == TimeReduction::drift))
       e.origin.fail(quantity.ask_for_component());
     e.require_units(quantity.unit);
-    if (scene.is_static() && (e.at || e.take != Take::end || !quantity.values))
+    if (scene.is_static() && (e.at || e.take != TimeReduction::end || !quantity.values))
       e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
                     std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
     if (e.at && (*e.at < scene.time.start || *e.at > scene.time.end))
@@ -77,20 +77,13 @@ std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, 
   try {
     integrator = scene.integrator->make(model, task);
   } catch (const ConfigError& e) {
-    if (!e.place().empty()) throw;  // such as that of a formula which has no value
+    if (!e.place().empty()) throw;  // names its input already, as for a formula without a value
     config.at("integrator").fail(e.message());
   }
   const Config section = config.at("integrator");
   for (const auto& [key, value] : integrator->decisions())
     if (!section.has(key)) section.fill(key, value);
   return integrator;
-}
-
-// Of each elastic term of the model, in their order.
-std::vector<Stiffness> elastic_stiffness(const Scene& scene, const FemModel& model) {
-  std::vector<Stiffness> out;
-  for (const auto& term : model.parts().elastic) out.push_back(material_in(scene, term->region()).stiffness());
-  return out;
 }
 
 void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
@@ -101,7 +94,7 @@ void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
   }
 }
 
-// Otherwise it shows in whatever looks at the start first, where nothing can be said about the input.
+// Throws ConfigError if the force at the start cannot be evaluated. Checked here, where the message can name the input.
 void require_force_at_start(const Config& config, const BuiltScene& built) {
   const State& start = built.initial;
   Vector force(start.q.size());
@@ -113,14 +106,14 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
     reason = e.what();
   }
   config.at(config.has("initial") ? "initial" : "mesh")
-      .fail(fmt::format("the force at the start cannot be evaluated: {}; check the initial state, the loads and the "
-                        "unit of length",
-                        reason));
+      .fail(fmt::format(
+          "the force at the start cannot be evaluated: {}; check the initial state, the loads and the unit of length",
+          reason));
 }
 
 }  // namespace
 
-void Setup::note_given_up(const std::string& reason) {
+void Setup::note_kinematics_restart(const std::string& reason) {
   if (!kinematics) kinematics.emplace();
   kinematics->add_reason(reason);
 }
@@ -137,40 +130,40 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
 
 namespace {
 
-Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, const Ranks* ranks) {
-  if (ranks) settle_for_ranks(config, scene);
+Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, const Ranks* ranks) {
+  if (ranks) adapt_to_ranks(config, scene);
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
   const auto build_it = [&] {
     if (!leaves_kinematics_open(scene)) return build(scene, ranks);
-    ChosenKinematics chosen = choose_kinematics(config, scene, linear_so_far);
+    ChosenKinematics chosen = choose_kinematics(config, scene, resumes_linear);
     kinematics = std::move(chosen.choice);
     linearity = std::move(chosen.watch);
     return std::move(chosen.built);
   };
   BuiltScene built = build_it();
-  if (!linearity && !ranks) linearity = watch_for_the_end(scene, *built.model);
+  if (!linearity && !ranks) linearity = reporting_watch(scene, *built.model);
   if (!scene.is_static()) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
+  append(config.warnings(), built.warnings);
   if (!ranks) append(check_inputs(config, scene, built, is_timed), built.warnings);
-  std::optional<StaticResponse> statics;  // made once, for whoever asks first
+  std::optional<StaticResponse> statics;  // computed on first use
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);
     return *statics;
   };
-  if (!ranks && built.model->num_dofs() <= kMostUnknownsOfResponse)
+  if (!ranks && built.model->num_dofs() <= kMaxUnknownsOfResponse)
     append(check_response(config, scene, built, response()), built.warnings);
-  const auto stiffness = elastic_stiffness(scene, *built.model);
-  if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model, stiffness))
-    append(strain_warnings(*built.model, stiffness, built.initial, response()), built.warnings);
+  if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model))
+    append(strain_warnings(*built.model, built.initial, response()), built.warnings);
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
   double wall = 0, cpu = 0;
   if (!scene.is_static()) {
     if (scene.start == Start::equilibrium) {
       start_from_equilibrium(scene, built);
-      statics.reset();  // it is of another initial state
+      statics.reset();  // the initial state has changed
     }
     Task task = task_of(scene, built);
     task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
@@ -179,16 +172,17 @@ Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, cons
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu = cpu_seconds_now() - begin_cpu;
-    const bool told = ranks || built.model->num_dofs() <= kMostUnknownsOfResponse;
-    if (statics && !told && scene.start == Start::rest)
+    const bool is_checked = ranks || built.model->num_dofs() <= kMaxUnknownsOfResponse;
+    if (statics && !is_checked && scene.start == Start::rest)
       append(check_response(config, scene, built, *statics), built.warnings);
   }
-  if (ranks && is_linear_anywhere(scene))
-    built.warnings.push_back("on several ranks it is not told how far linear kinematics are off; one process tells");
+  if (ranks && has_linear_region(scene))
+    built.warnings.push_back(
+        "several ranks do not estimate the error of linear kinematics; run on one process to see it");
   if (!blas_is_openblas())
     built.warnings.push_back(
-        "the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
-        "(Debian: libopenblas0-pthread)");
+        "the BLAS in use is not OpenBLAS; large factorisations will be several times slower (Debian: "
+        "libopenblas0-pthread)");
   return {std::move(config),
           std::move(scene),
           std::move(built),
@@ -202,10 +196,10 @@ Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, cons
 
 }  // namespace
 
-Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks* ranks) {
+Setup set_up(const Config& input, bool resumes_linear, bool is_timed, const Ranks* ranks) {
   const Config config = input.resolving();
   const Scene scene = read_scene(config);
-  return scene.places.with([&] { return set_up(config, scene, linear_so_far, is_timed, ranks); });
+  return scene.places.with([&] { return set_up(config, scene, resumes_linear, is_timed, ranks); });
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// From the input to a model and its integrator, ready to run.
+// Builds a model and its integrator from the input.
 #pragma once
 
 #include <memory>
@@ -14,25 +14,25 @@
 namespace orthodyn {
 
 struct Setup {
-  Config config;  // resolved: every default filled in, the integrator's decisions too
+  Config config;  // resolved: all defaults and the integrator's decisions included
   Scene scene;
-  BuiltScene built;                            // with warnings for the user
-  std::unique_ptr<Integrator> integrator;      // null in statics
-  std::vector<Event> events;                   // of the model
-  std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
-  std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null without linear kinematics
-  double wall_seconds = 0, cpu_seconds = 0;    // that the integrator took to be made: its modes, scales and the like
+  BuiltScene built;                        // includes warnings for the user
+  std::unique_ptr<Integrator> integrator;  // null in statics
+  std::vector<Event> events;
+  std::optional<KinematicsChoice> kinematics;  // if the scene has `kinematics: auto`
+  std::unique_ptr<LinearityWatch> linearity;   // watches the run; null without linear kinematics
+  double wall_seconds = 0, cpu_seconds = 0;    // time to make the integrator: modes, scales and the like
 
-  // That linear kinematics were given up by an earlier attempt, in words.
-  void note_given_up(const std::string& reason);
+  // Records why an earlier attempt with linear kinematics was abandoned.
+  void note_kinematics_restart(const std::string& reason);
 };
 
-// What the scene wants of its integrator. Both must outlive the task.
+// The integration task of a scene. Both arguments must outlive it.
 Task task_of(const Scene& scene, const BuiltScene& built);
 
-// Reads, validates and builds; the input stays as it is. `linear_so_far`: as choose_kinematics() has it. `is_timed`:
-// false where the user gave no time span, and the one of the input means nothing. Throws ConfigError.
-// `ranks`: those that hold the model together, and all call this; null for this process alone.
-Setup set_up(const Config& input, bool linear_so_far = false, bool is_timed = true, const Ranks* ranks = nullptr);
+// Reads, validates and builds; `input` is not changed. `resumes_linear`: see choose_kinematics(). `is_timed`: false if
+// the user gave no time span, so that checks of it are skipped. `ranks`: the ranks that share the model, all of which
+// call this; null for this process alone. Throws ConfigError.
+Setup set_up(const Config& input, bool resumes_linear = false, bool is_timed = true, const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn

@@ -8,7 +8,7 @@
 
 namespace orthodyn {
 
-void settle_for_ranks(Config& config, Scene& scene) {
+void adapt_to_ranks(Config& config, Scene& scene) {
   if (scene.analysis == Analysis::buckling)
     config.at("analysis").fail("buckling is analysed by one process, not on several ranks");
   if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {
@@ -22,14 +22,14 @@ void settle_for_ranks(Config& config, Scene& scene) {
     make_corotational(config);
     scene = read_scene(config);
   }
-  scene.output.accumulated_error = false;  // it repeats parts of the run
+  scene.output.accumulated_error = false;  // the estimate would repeat parts of the run
 }
 
-int number_of(const Ranks* ranks) { return ranks ? ranks->size() : 1; }
+int num_ranks(const Ranks* ranks) { return ranks ? ranks->size() : 1; }
 
 bool failed_alone(const Ranks* ranks) {
   constexpr double kSecondsToMeet = 10;
-  return ranks && !ranks->meet(kSecondsToMeet);
+  return ranks && !ranks->barrier_within(kSecondsToMeet);
 }
 
 void require_failure_of_all(const Ranks* ranks, const Outcome& outcome) {

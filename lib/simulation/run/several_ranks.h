@@ -1,4 +1,4 @@
-// What of a scene several ranks can do together.
+// Runs on several MPI ranks: restrictions, and failures on one rank.
 #pragma once
 
 #include "lib/config/config.h"
@@ -8,16 +8,17 @@
 
 namespace orthodyn {
 
-// Throws ConfigError, at the key, for what they cannot; makes choices that are open for one process only.
-void settle_for_ranks(Config& config, Scene& scene);
+// Throws ConfigError at the key of a feature that is not available on several ranks. Replaces `kinematics: auto` by
+// corotational and switches off output.accumulated_error.
+void adapt_to_ranks(Config& config, Scene& scene);
 
-// How many there are; 1 for null.
-int number_of(const Ranks* ranks);
+// Number of ranks; 1 for null.
+int num_ranks(const Ranks* ranks);
 
-// Called by a rank that has failed. Whether it is alone: the others do not come here within seconds, and nothing is
-// left but to end them. `ranks`: null for this process alone.
+// Call on a rank that has failed. Waits for the other ranks, and returns true if they do not call this function within
+// 10 s; they can then only be terminated. `ranks`: null for this process alone.
 bool failed_alone(const Ranks* ranks);
-// Throws std::runtime_error where a run has failed on this rank alone.
+// Throws std::runtime_error if the run failed on this rank only.
 void require_failure_of_all(const Ranks* ranks, const Outcome& outcome);
 
 }  // namespace orthodyn

@@ -1,8 +1,7 @@
-// A buckling analysis of a scene: buckling.csv, and the shapes as modes.pvd.
+// Buckling analysis of a scene: writes buckling.csv, and the shapes as modes.pvd.
 #include "lib/analysis/buckling.h"
-#include "lib/simulation/modes/shape_files.h"
+#include "lib/simulation/modes/mode_files.h"
 #include "lib/simulation/output/files.h"
-#include "lib/simulation/run/model_keys.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
@@ -12,14 +11,8 @@ namespace orthodyn {
 
 namespace {
 
-void refuse_what_is_for_others(const RunRequest& request) {
-  if (request.resume) throw ConfigError("--resume: a buckling analysis keeps no checkpoint; start anew with --force");
-  if (request.estimate_error)
-    throw ConfigError("--estimate-error: a buckling analysis has no error of integration; remove it");
-}
-
-// The relative error of a shape's elastic energy by the mesh, estimated from recovered stresses: that of its load
-// factor, too. Shapes are scaled to an elastic energy of 1/2, so that nothing is left to divide by.
+// Relative error of a shape's elastic energy due to the mesh, estimated from recovered stresses; it is also the
+// relative error of the load factor. Shapes have the elastic energy 1/2, so that no division is needed.
 double mesh_error(const FemModel& model, const State& rest, const Vector& shape) {
   const FemModel::Parts& parts = model.parts();
   const NodalExpansion about(parts, rest.t, rest.q, rest.v);
@@ -52,14 +45,13 @@ void write(const std::filesystem::path& folder, const FemModel& model, const Sta
 }  // namespace
 
 RunResult run_buckling_analysis(RunContext context) {
-  refuse_what_is_for_others(context.request);
   const Setup& setup = context.setup;
   const FemModel& model = *setup.built.model;
   const double t = setup.scene.time.end;
   require_held(setup.scene, model, t);
   context.folder.prepare();
   const auto& folder = context.folder.path();
-  const RunRecord record(folder, context.scene, context.set, {}, model_keys(setup.config));
+  const RunRecord record(folder, context.scene, context.set, {}, setup.config);
   write_file(folder / "scene.yaml", {context.resolved});
   const State rest{t, unloaded_shape(setup.scene, setup.built), Vector::Zero(model.num_dofs())};
   RunResult result{.scene = context.scene, .folder = folder};
@@ -70,8 +62,8 @@ RunResult run_buckling_analysis(RunContext context) {
     const auto& modes = found.modes;
     if (modes.empty())
       throw RunError(
-          "these loads do not buckle the body: no positive critical load factor was found. Loads that pull do "
-          "not, nor does a body of linear kinematics, which has no stress stiffness");
+          "these loads do not buckle the body: no positive critical load factor was found. Tensile loads do not buckle "
+          "a body; nor is there buckling with linear kinematics, which have no stress stiffness");
     result.buckling = describe(model, rest, found, count);
     result.buckling->unsymmetric = has_unsymmetric_load(setup.scene, model.parts().mesh);
     write(folder, model, rest, modes, *result.buckling);

@@ -1,6 +1,5 @@
 #include "lib/simulation/statics/load_steps.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-// Drives a static analysis: load steps from nothing to all loads. Observers see each equilibrium as an output, whose
+// Drives a static analysis: load steps from zero to full load. Observers receive each equilibrium as an output, whose
 // "time" is its load factor.
 #pragma once
 
@@ -11,16 +11,16 @@
 
 namespace orthodyn {
 
-// Never throws for a computation that could not go on: that is an Outcome, whose last state is the last equilibrium.
-// `model` is what the observers may ask about.
+// Returns an Outcome whose last state is the last equilibrium, also if the computation fails; does not throw. `model`:
+// evaluates the outputs for the observers.
 Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<Observer*>& observers,
                    const std::atomic<bool>& interrupt);
 
-// load_steps.csv: for each equilibrium what it took, how well it holds, how large the motion is, in how many directions
-// it is unstable (nan where K does not tell); energies, where the model tells them.
+// Writes load_steps.csv. Each row describes an equilibrium: load factor, Newton iterations, residual, largest
+// displacement, number of unstable directions (nan if unknown), and energies.
 class LoadStepWriter : public Observer {
  public:
-  // `stepper` must outlive it.
+  // `stepper` must outlive the writer.
   LoadStepWriter(const std::filesystem::path& path, const Model& model, const LoadStepper& stepper);
   void on_start(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override { write(observed); }

@@ -11,7 +11,7 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   if (freedom.empty()) return;
   const std::string message = fmt::format(
       "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three "
-      "points that are not in line)",
+      "points not in line)",
       freedom);
   if (scene.clamps.empty()) throw scene.places.placed(ConfigError("clamps", message));
   scene.clamps.front().origin.fail(message);
@@ -43,7 +43,6 @@ Following follow(const Scene& scene, const LoadPath& path, double length) {
   return out;
 }
 
-// The shape in which the body rests without loads.
 Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times) {
   const auto path = LoadPath::settling(model, times, Vector::Zero(model.num_dofs()));
   if (!path) return Vector::Zero(model.num_dofs());
@@ -51,9 +50,8 @@ Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times
   try {
     while (!settling.stepper->done()) settling.stepper->step();
   } catch (const RunError& e) {
-    throw RunError(
-        fmt::format("without loads, under the forces of springs and ground on the rest shape alone: {}", e.what()),
-        e.reason());
+    throw RunError(fmt::format("without loads, with springs and ground contact acting on the rest shape: {}", e.what()),
+                   e.reason());
   }
   return settling.stepper->state().q;
 }

@@ -1,4 +1,4 @@
-// A static analysis of a scene: load steps to the equilibrium under all its loads, and what it writes.
+// Static analysis of a scene: load steps to the equilibrium at full load, and output files.
 #include <fmt/format.h>
 
 #include <limits>
@@ -11,7 +11,6 @@
 #include "lib/simulation/output/frames.h"
 #include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/output/setup_file.h"
-#include "lib/simulation/run/model_keys.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
@@ -23,7 +22,7 @@ namespace orthodyn {
 
 namespace {
 
-// A notice for each load step.
+// Reports each load step.
 class LoadProgress : public Observer {
  public:
   LoadProgress(const LoadStepper& stepper, RunListener& listener) : stepper_(stepper), listener_(listener) {}
@@ -54,9 +53,9 @@ class StaticObservers {
     if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
     if (has_strain_limits(model)) strains_.emplace(StrainWatch::of_equilibria(model, problem.path->times()));
   }
-  void tell(RunResult& result) const {
+  void copy_to(RunResult& result) const {
     if (extremes_) result.extremes = extremes_->found();
-    if (strains_) result.passed_strain = strains_->worst();
+    if (strains_) result.exceeded_strain = strains_->worst();
   }
 
   std::vector<Observer*> all() {
@@ -84,12 +83,6 @@ class StaticObservers {
   LoadProgress progress_;
 };
 
-void refuse_what_is_for_motion(const RunRequest& request) {
-  if (request.resume) throw ConfigError("--resume: a static analysis keeps no checkpoint; start anew with --force");
-  if (request.estimate_error)
-    throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
-}
-
 std::vector<int> probed_nodes(const Setup& setup) {
   std::vector<int> nodes;
   for (const auto& [name, probe] : setup.scene.output.probes)
@@ -97,16 +90,16 @@ std::vector<int> probed_nodes(const Setup& setup) {
   return nodes;
 }
 
-// Of the probes' nodes by the dual problem; NaN where the equilibrium is unstable.
+// Errors of the displacements at `nodes`, by the dual problem; empty if the equilibrium is unstable.
 std::vector<Vec3> dual_errors(const FemModel& model, const State& equilibrium, const std::vector<int>& nodes) {
   try {
     return displacement_errors(model, equilibrium, nodes);
-  } catch (const RunError&) {  // no stable equilibrium, no error of it
+  } catch (const RunError&) {  // unstable equilibrium
     return {};
   }
 }
 
-// At the last equilibrium. `errors`: empty where they are not known.
+// Displacements of the probed nodes at the last equilibrium. `errors`: empty if unknown.
 std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium,
                                                      std::vector<Vec3> errors) {
   const FemModel& model = *setup.built.model;
@@ -119,7 +112,7 @@ std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const S
   return out;
 }
 
-// Without what is of the last equilibrium where other ranks do not know of it.
+// `with_last`: false if only this rank failed; the results at the last equilibrium need all ranks.
 EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& problem, const Outcome& outcome,
                                      bool with_last) {
   const LoadStepper& stepper = *problem.stepper;
@@ -141,16 +134,16 @@ EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& pr
   const auto det_f = problem.path->evaluate("det_f.smallest", last);
   out.det_f = {det_f[0], static_cast<long>(det_f[1]), out.loads_at_time};
   MeshErrorRecorder mesh_error(0);
-  if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, last});
+  if (setup.scene.output.mesh_error) mesh_error.observe({*problem.path, last});
   out.mesh_error = mesh_error.found();
   const FemModel& model = *setup.built.model;
   const State equilibrium{out.loads_at_time, last.q, Vector::Zero(last.q.size())};
   const std::vector<int> nodes = probed_nodes(setup);
   std::vector<Vec3> errors;
-  // Below all loads the model has no equilibrium to tell an error of.
+  // No error can be estimated below full load, where the state is not an equilibrium of `model`.
   if (setup.scene.output.mesh_error && outcome.status == Outcome::Status::completed) {
     if (out.mesh_error) {
-      FoundByFiner found = look_closer(setup.scene, model, equilibrium, false, *out.mesh_error, nodes);
+      StateMeshError found = estimate_mesh_error(setup.scene, model, equilibrium, false, *out.mesh_error, nodes);
       out.mesh_error = found.error;
       errors = std::move(found.displacements);
     }
@@ -163,29 +156,28 @@ EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& pr
 }  // namespace
 
 RunResult run_static_analysis(RunContext context) {
-  refuse_what_is_for_motion(context.request);
   const Setup& setup = context.setup;
   const auto& folder = context.folder.path();
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   context.folder.prepare();
-  const RunRecord record(folder, context.scene, context.set, {}, model_keys(context.setup.config));
+  const RunRecord record(folder, context.scene, context.set, {}, context.setup.config);
   write_file(folder / "scene.yaml", {context.resolved});
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();
   const auto own = context.listener.on_begin(setup);
-  if (own) all.insert(all.begin(), own.get());  // it may share what it keeps with those that write
+  if (own) all.insert(all.begin(), own.get());  // called first; the writers can reuse the values it evaluates
   RunResult result{.scene = context.scene, .folder = folder};
-  result.ranks = number_of(context.request.ranks);
+  result.ranks = num_ranks(context.request.ranks);
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   result.failed_alone = result.outcome.status == Outcome::Status::failed && failed_alone(problem.path->ranks());
   if (!result.failed_alone) result.outcome.cpu_seconds = problem.path->space().sum(result.outcome.cpu_seconds);
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
     setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
-    result.outgrown = setup.linearity->why_to_start_again();
-    if (result.outgrown) return result;
+    result.kinematics_restart = setup.linearity->kinematics_restart();
+    if (result.kinematics_restart) return result;
   }
   result.model = summarize(setup);
-  observers.tell(result);
+  observers.copy_to(result);
   result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.failed_alone);
   record.finish(result);
   context.listener.on_result(result);

@@ -9,7 +9,7 @@
 #include "lib/config/registry.h"
 #include "lib/core/spelling.h"
 #include "lib/ode/integrator.h"
-#include "lib/simulation/run/input_kind.h"
+#include "lib/simulation/run/scene_file.h"
 #include "lib/study/inputs/labels.h"
 
 namespace orthodyn {
@@ -24,20 +24,20 @@ namespace {
 
 void refuse_repeated(std::vector<double> values, const Config& config, const char* key) {
   std::sort(values.begin(), values.end());
-  if (std::adjacent_find(values.begin(), values.end()) != values.end()) config.at(key).fail("has a value twice");
+  if (std::adjacent_find(values.begin(), values.end()) != values.end()) config.at(key).fail("lists a value twice");
 }
 
 void check_varied(const std::string& path, const std::vector<YamlText>& values, const Config& at) {
   if (values.empty()) at.fail("is empty; list the values to compare");
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (values[i].text == values[j].text) at.at(i).fail("stands here twice");
+      if (values[i].text == values[j].text) at.at(i).fail("is listed twice");
   if (path == "integrator.rtol" || path == "integrator.step")
-    at.fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
-  if (path == "integrator.type") at.fail("comes from 'integrators' of the comparison; remove it here");
+    at.fail("is set by 'tolerances' and 'steps' of the comparison; remove it here");
+  if (path == "integrator.type") at.fail("is set by 'integrators' of the comparison; remove it here");
 }
 
-// A key that none of the integrators has would be varied for nothing.
+// Refuses a varied key that no integrator has, because varying it would have no effect.
 void check_varied_options(const Comparison& c, const Config& config) {
   for (const auto& [path, values] : c.vary) {
     if (!path.starts_with("integrator.")) continue;
@@ -52,15 +52,16 @@ void check_varied_options(const Comparison& c, const Config& config) {
 
 void refuse_unused(const Config& config, const std::string& name, const std::vector<double>& values,
                    const Comparison& c, const std::string& key) {
-  const auto takes_them = [&](const IntegratorEntry& entry) { return has_key(entry.type, key); };
-  if (values.empty() || std::any_of(c.integrators.begin(), c.integrators.end(), takes_them)) return;
-  config.at(name).fail("none of the integrators takes them (as '" + key + "'); remove them");
+  const auto takes_key = [&](const IntegratorEntry& entry) { return has_key(entry.type, key); };
+  if (values.empty() || std::any_of(c.integrators.begin(), c.integrators.end(), takes_key)) return;
+  config.at(name).fail("no integrator has the key '" + key + "' that these values set; remove them");
 }
 
 void check_frames(const Comparison& c, const Config& at) {
   if (c.frames->count > c.samples)
     (at.has("count") ? at.at("count") : at)
-        .fail(fmt::format("{} frames of {} samples: take fewer, or raise 'samples'", c.frames->count, c.samples));
+        .fail(fmt::format("{} frames requested, but only {} samples are taken: reduce 'count' or raise 'samples'",
+                          c.frames->count, c.samples));
 }
 
 void check_comparison(const Comparison& c, const Config& config) {
@@ -73,43 +74,45 @@ void check_comparison(const Comparison& c, const Config& config) {
   if (c.frames) check_frames(c, config.at("frames"));
 }
 
-// The reference must be of the same body, under the same loads.
+// Allows only keys that keep the body and its loads.
 void check_reference_set(const ReferenceOptions& reference, const Config& config) {
   for (const auto& [path, value] : reference.set)
-    if (!is_of_mesh(path))
+    if (!keeps_body(path))
       config.at("set").at(path).fail(
-          "is not a key of the mesh, or changes the body's shape; a reference for a different motion measures nothing. "
-          "Allowed here are mesh.cells, order, refine, split, grading and file, which leave the body unchanged; what "
-          "is to be compared belongs in 'scenes' or 'vary'");
+          "is not one of the keys that a reference may set: mesh.cells, mesh.order, mesh.refine, mesh.split, "
+          "mesh.grading "
+          "and mesh.file, which keep the body. Errors against another motion would be meaningless; set anything else "
+          "in "
+          "'scenes' or 'vary'");
   if (!reference.set.empty() && reference.kind == ReferenceKind::none)
-    config.at("set").fail("has no reference to apply to: remove 'kind: none', or 'set'");
+    config.at("set").fail("has no effect with 'kind: none': remove one of them");
 }
 
 }  // namespace
 
-bool is_of_mesh(const std::string& path) {
-  static const std::set<std::string> of_its_elements{"cells", "order", "refine", "split", "grading", "file"};
+bool keeps_body(const std::string& path) {
+  static const std::set<std::string> keys{"cells", "order", "refine", "split", "grading", "file"};
   constexpr std::string_view kMesh = "mesh.";
   if (!path.starts_with(kMesh)) return false;
   const std::string key = path.substr(kMesh.size());
-  return of_its_elements.contains(key.substr(0, key.find('.')));
+  return keys.contains(key.substr(0, key.find('.')));
 }
 
 const Spec<ReferenceOptions>& ReferenceOptions::spec() {
   static const auto s =
       Spec<ReferenceOptions>()
           .key("kind", &ReferenceOptions::kind,
-               "automatic: the exact solution if there is one, otherwise computed. none: no errors.")
+               "automatic: the exact solution if there is one, otherwise computed. none: errors are not measured.")
           .key("integrator", &ReferenceOptions::integrator,
-               "The integrator of the reference, as in a scene; default arkode_dirk at a thousandth of the "
-               "smallest tolerance.")
+               "The integrator of the reference, as in a scene; default arkode_dirk at a thousandth of the smallest "
+               "tolerance.")
           .key("check", &ReferenceOptions::check,
-               "A second one, of another family, whose difference bounds the error of the reference; default "
-               "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
+               "A second integrator, of another family. Its difference from the reference bounds the error of the "
+               "reference; default cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
           .key("set", &ReferenceOptions::set,
-               "Keys of the mesh that hold for the reference only, a finer one: {mesh.cells: [80, 4, 2]}. Scenes that "
-               "differ in their meshes then share one reference, and errors are those of space and time, at probes.")
-          .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
+               "Mesh keys of the reference only, for a finer mesh: {mesh.cells: [80, 4, 2]}. Scenes that differ only "
+               "in their meshes then share one reference, and errors at the probes include the mesh error.")
+          .key("seconds", &ReferenceOptions::seconds, "Wall time limit of the reference and of the check.",
                {.unit = "s", .range = kLimitSeconds})
           .check(check_reference_set);
   return s;
@@ -118,10 +121,10 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
 const Spec<KeptFrames>& KeptFrames::spec() {
   static const auto s =
       Spec<KeptFrames>()
-          .key("count", &KeptFrames::count, "Frames after the initial one, of the samples, evenly spaced.",
+          .key("count", &KeptFrames::count, "Number of frames after the initial one, evenly spaced over the samples.",
                {.range = {1, 2000}})
           .key("fields", &KeptFrames::fields,
-               "Node and cell fields of the frames, beside the displacement (see `orthodyn list fields`).");
+               "Node and cell fields of the frames, in addition to the displacement (see `orthodyn list fields`).");
   return s;
 }
 
@@ -129,25 +132,28 @@ const Spec<Comparison>& Comparison::spec() {
   static const auto s =
       Spec<Comparison>()
           .key("title", &Comparison::title, "Heading of the report; default the file's name.")
-          .key("description", &Comparison::description, "What is compared and why, in a sentence or two.")
+          .key("description", &Comparison::description,
+               "One or two sentences for the report: what is compared, and why.")
           .key("scenes", &Comparison::scenes, "Scene files, or sections {file, label, set}.", {.required = true})
           .key("integrators", &Comparison::integrators,
                "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
-          .key("tolerances", &Comparison::tolerances, "rtol of the adaptive methods.", {.range = {0, 1, true, true}})
-          .key("steps", &Comparison::steps, "Steps of the fixed-step methods.", {.unit = "s", .range = kPositive})
+          .key("tolerances", &Comparison::tolerances, "Values of rtol for the adaptive methods.",
+               {.range = {0, 1, true, true}})
+          .key("steps", &Comparison::steps, "Step sizes for the fixed-step methods.", {.unit = "s", .range = kPositive})
           .key("vary", &Comparison::vary,
-               "Further values by path, all combined: {integrator.linear_solver: [klu, cholmod]}. What lies below "
-               "'integrator' makes methods, everything else makes scenes.")
+               "Values of further keys by path, in all combinations: {integrator.linear_solver: [klu, cholmod]}. Keys "
+               "of 'integrator' make further methods, all others further scenes.")
           .key("quantities", &Comparison::quantities,
-               "Quantities whose errors are measured too, relative to their largest size over time, by name (see "
+               "Names of quantities whose errors are measured too, relative to their largest magnitude over time (see "
                "`orthodyn list quantities`): [von_mises.largest, root.von_mises].")
           .key("frames", &Comparison::frames,
-               "Keep frames of each point whose timed runs end, and of its reference, for a 3D view of one beside the "
-               "other: {} for the usual ones. The run that is watched for errors writes them, not the timed ones.")
-          .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
-          .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
-          .key("limits", &Comparison::limits, "Limits of each point.")
-          .key("reference", &Comparison::reference, "What errors are measured against.")
+               "Write frames of each completed point and of its reference, for a 3D view side by side; {} for the "
+               "defaults. The observed run writes them, so timed runs are not affected.")
+          .key("repeats", &Comparison::repeats, "Number of timed integrations per point.", {.range = {1, 100}})
+          .key("samples", &Comparison::samples, "Number of evenly spaced times at which errors are measured.",
+               {.range = {2, 2000}})
+          .key("limits", &Comparison::limits, "Wall time and memory limits of each point.")
+          .key("reference", &Comparison::reference, "The solution against which errors are measured.")
           .check(check_comparison);
   return s;
 }

@@ -1,5 +1,5 @@
-// A comparison of integrators, as its YAML file says it: scenes x integrators x (tolerances or steps)
-// x whatever else is varied.
+// A comparison of integrators as declared in its YAML file: scenes x integrators x (tolerances or steps) x further
+// varied keys.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,14 @@ enum class ReferenceKind { automatic, computed, none };
 
 struct ReferenceOptions {
   ReferenceKind kind = ReferenceKind::automatic;
-  std::optional<CompleteIntegratorEntry> integrator, check;
-  Assignments set;        // keys of the mesh that hold for the reference only: errors are then those of the mesh, too
-  double seconds = 1800;  // limit
+  std::optional<CompleteIntegratorEntry> integrator, check;  // empty for the defaults
+  Assignments set;        // changes to the reference's mesh only; if there are any, errors include the mesh error
+  double seconds = 1800;  // wall time limit of the reference and of the check
   static const Spec<ReferenceOptions>& spec();
 };
 
-// What each point and each reference keeps for the 3D view: `count` of its samples, the last among them.
+// Frames of each point and each reference for the report's 3D view: the initial state and `count` samples, including
+// the last.
 struct KeptFrames {
   int count = 20;
   FrameFields fields{"displacement", "velocity"};
@@ -35,23 +36,23 @@ struct Comparison {
   std::string title;
   std::string description;
   std::vector<SceneEntry> scenes;
-  std::vector<IntegratorEntry> integrators;  // `all`: every one of the registry
-  std::vector<double> tolerances, steps;
-  SourceLocation tolerances_at = {}, steps_at = {};  // their places in the file
-  Named<std::vector<YamlText>> vary;                 // by path in a scene
-  std::vector<std::string> quantities = {};          // whose errors are measured beside displacement and velocity
+  std::vector<IntegratorEntry> integrators;  // `all` is replaced by every registered integrator
+  std::vector<double> tolerances, steps;     // values of rtol; step sizes, s
+  SourceLocation tolerances_at = {}, steps_at = {};
+  Named<std::vector<YamlText>> vary;         // values of further keys, by path in the scene
+  std::vector<std::string> quantities = {};  // measured in addition to displacement and velocity
   std::optional<KeptFrames> frames = {};
-  int repeats = 3, samples = 100;
+  int repeats = 3, samples = 100;  // timed runs of each point; times at which errors are measured
   Limits limits;
   ReferenceOptions reference;
 
   static const Spec<Comparison>& spec();
 };
 
-// Whether a path in a scene names what a mesh of the same body may differ in.
-bool is_of_mesh(const std::string& path);
+// True if the key at `path` changes the discretisation but not the body: "mesh.cells".
+bool keeps_body(const std::string& path);
 
-// Throws ConfigError.
+// Reads and checks a comparison file. Throws ConfigError.
 Comparison read_comparison(const Config& config);
 
 }  // namespace orthodyn

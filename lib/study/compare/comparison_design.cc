@@ -6,10 +6,12 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
-#include "lib/study/compare/identifiers.h"
+#include "lib/scene/scene.h"
+#include "lib/simulation/run/kinematics.h"
 #include "lib/study/compare/problem_groups.h"
 
 namespace orthodyn::study::compare {
@@ -19,12 +21,12 @@ namespace {
 constexpr const char* kIntegratorPrefix = "integrator.";
 constexpr std::array kSafeties{0.9, 0.45, 0.225};
 
-// All combinations of the values of `vary` whose paths `concerns` accepts.
+// All combinations of the values of those `vary` paths that `applies` accepts.
 std::vector<Variant> combinations(const Comparison& comparison,
-                                  const std::function<bool(const std::string&)>& concerns) {
+                                  const std::function<bool(const std::string&)>& applies) {
   std::vector<Variant> all{{}};
   for (const auto& [path, values] : comparison.vary) {
-    if (!concerns(path)) continue;
+    if (!applies(path)) continue;
     std::vector<Variant> longer;
     for (const auto& variant : all) {
       for (const auto& value : values) {
@@ -40,7 +42,7 @@ std::vector<Variant> combinations(const Comparison& comparison,
 
 bool is_of_integrator(const std::string& path) { return path.starts_with(kIntegratorPrefix); }
 
-// With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
+// With a fixed step, rtol controls only Newton's method. It must be so tight that the step size determines the error.
 YamlText newton_tolerance(const Comparison& comparison) {
   const auto& tolerances = comparison.tolerances;
   const double usual = 1e-6;
@@ -49,7 +51,7 @@ YamlText newton_tolerance(const Comparison& comparison) {
           comparison.tolerances_at};
 }
 
-// Where the file says what controls the error.
+// Place in the file of the values that control the error.
 SourceLocation origin_of(const Comparison& comparison, Method::Control control) {
   switch (control) {
     case Method::Control::rtol: return comparison.tolerances_at;
@@ -59,25 +61,25 @@ SourceLocation origin_of(const Comparison& comparison, Method::Control control) 
   return {};
 }
 
-// What controls the error of an integrator, of what the comparison gives.
+// The kinds of error control that an integrator supports and the comparison requests.
 struct Controls {
   bool adaptive, fixed, by_limit;
 };
 
 Controls controls_of(const Comparison& comparison, const IntegratorEntry& entry) {
   const bool has_tolerance = has_key(entry.type, "rtol");
-  // One that knows no tolerance and finds its critical step itself.
+  // Explicit methods without a tolerance determine the critical step themselves.
   const bool by_limit = has_key(entry.type, "safety") && !has_tolerance;
   return {has_tolerance && !comparison.tolerances.empty(),
           has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all), by_limit};
 }
 
-// A key that this integrator does not have is not varied for it.
-bool concerns(const IntegratorEntry& entry, const std::string& path) {
-  return is_of_integrator(path) && has_key(entry.type, last_step(path));
+// True for an option that this integrator has; other keys are not varied for it.
+bool has_option(const IntegratorEntry& entry, const std::string& path) {
+  return is_of_integrator(path) && has_key(entry.type, last_key(path));
 }
 
-// One method for each kind of control that the integrator has.
+// Adds one method per kind of error control.
 void add_methods(const Comparison& comparison, const IntegratorEntry& entry, const Variant& variant,
                  std::vector<Method>& methods) {
   Method method{"",
@@ -86,7 +88,7 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
                 Registry<IntegratorChoice>::entries().at(entry.type).sentence,
                 entry.options,
                 Method::Control::rtol};
-  for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
+  for (const auto& [path, value] : variant.set) method.set.emplace_back(last_key(path), value);
   const auto [adaptive, fixed, by_limit] = controls_of(comparison, entry);
   const std::string label = method.label;
   if (adaptive) methods.push_back(method);
@@ -102,35 +104,35 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
     methods.push_back(method);
   }
   if (!adaptive && !fixed && !by_limit && !entry.by_all)
-    entry.origin.fail("'" + entry.type + "' takes none of what the comparison gives: " +
-                      (has_key(entry.type, "step") ? "add 'steps'" : "add 'tolerances'"));
+    entry.origin.fail("'" + entry.type + "' needs " + (has_key(entry.type, "step") ? "'steps'" : "'tolerances'") +
+                      ", which the comparison does not give; add them or remove the integrator");
 }
 
 std::vector<Method> methods_of(const Comparison& comparison) {
   std::vector<Method> methods;
   for (const auto& entry : comparison.integrators)
-    for (const auto& variant : combinations(comparison, [&](const auto& path) { return concerns(entry, path); }))
+    for (const auto& variant : combinations(comparison, [&](const auto& path) { return has_option(entry, path); }))
       add_methods(comparison, entry, variant, methods);
   identify(methods);
   return methods;
 }
 
-// What is given for the reference or its check, or else the default.
-Method reference_method(const std::optional<CompleteIntegratorEntry>& entry, const Method& otherwise) {
-  if (!entry) return otherwise;
+// The integrator given for the reference or its check, or the default.
+Method reference_method(const std::optional<CompleteIntegratorEntry>& entry, const Method& fallback) {
+  if (!entry) return fallback;
   Method method{"", entry->type, entry->type, "", entry->options, Method::Control::rtol};
   for (const auto& [key, value] : entry->options) method.label += ", " + key + " " + value.text;
   return method;
 }
 
-Method usual_reference(const std::string& type, double rtol, Assignments more) {
+Method default_reference(const std::string& type, double rtol, Assignments more) {
   more.emplace_back("rtol", YamlText{number_text(rtol)});
   Method method{"", type, type, "", more, Method::Control::rtol};
   for (const auto& [key, value] : more) method.label += ", " + key + " " + value.text;
   return method;
 }
 
-// Wrong input shows before anything runs.
+// Reads the scene, so that input errors are reported before anything runs.
 void check_point(const Design& design, const Point& point) {
   try {
     point_scene(design, point);
@@ -151,15 +153,50 @@ void choose_references(const Comparison& comparison, Design& design) {
   const auto& tolerances = comparison.tolerances;
   const double tightest = tolerances.empty() ? 1e-6 : *std::min_element(tolerances.begin(), tolerances.end());
   design.reference = reference_method(comparison.reference.integrator,
-                                      usual_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
-  design.check =
-      reference_method(comparison.reference.check,
-                       usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
+                                      default_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
+  design.check = reference_method(
+      comparison.reference.check,
+      default_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
   if (comparison.reference.kind == ReferenceKind::none) return;
   for (const auto& group : design.groups) {
     check_reference(group, design.reference);
     check_reference(group, design.check);
   }
+}
+
+using Keys = std::set<std::string>;
+
+bool is_kept_by_methods(const std::string& key, Method::Control control) {
+  static const Keys controls{"rtol", "step", "safety"}, limits_of_steps{"h0", "h_min", "h_max"};
+  return !controls.contains(key) && !(control == Method::Control::step && limits_of_steps.contains(key));
+}
+
+bool is_kept_by_references(const std::string& key) {
+  static const Keys kept{"position_scale", "velocity_scale", "linear_solver"};
+  return kept.contains(key);
+}
+
+void set_frames(const std::optional<KeptFrames>& frames, Config& config) {
+  if (!frames) return config.set("output.fields", std::vector<std::string>());
+  std::vector<std::string> fields = frames->fields;
+  if (std::ranges::find(fields, "displacement") == fields.end()) fields.insert(fields.begin(), "displacement");
+  config.set("output.fields", fields, frames->fields.origin.where);
+  config.set("output.interval", nullptr);
+  config.set("output.frames", static_cast<double>(frames->count));
+}
+
+Config scene_of(const std::optional<KeptFrames>& frames, const SceneVariant& variant, const std::string& integrator,
+                const std::function<bool(const std::string&)>& kept, const Assignments& options) {
+  Config config = with_integrator(variant, integrator, options, kept);
+  set_frames(frames, config);
+  for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
+  config.set("expect", nullptr);
+  if (leaves_kinematics_open(read_scene(config)))
+    config.at("elasticity")
+        .fail(
+            "kinematics: auto may choose a different model for each tolerance, but a comparison needs one model: set "
+            "linear or corotational in the scene or in its `set`");
+  return config;
 }
 
 }  // namespace
@@ -171,6 +208,18 @@ std::string control_word(Method::Control control) {
     case Method::Control::safety: break;
   }
   return "safety";
+}
+
+Config reference_scene(const Group& group, const Method& method, const std::optional<KeptFrames>& frames) {
+  return scene_of(frames, group.reference, method.integrator, is_kept_by_references, method.set);
+}
+
+Config point_scene(const Design& design, const Point& point) {
+  const Method& method = design.methods[point.method];
+  Assignments options = method.set;
+  options.emplace_back(control_word(method.control), YamlText{number_text(point.control), point.control_at});
+  const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
+  return scene_of(design.frames, design.problems[point.problem].scene, method.integrator, kept, options);
 }
 
 std::string title(const Design& design, const Point& point) {
@@ -189,7 +238,7 @@ double number_of_points(const Comparison& comparison) {
     auto points = static_cast<double>((by.adaptive ? comparison.tolerances.size() : 0) +
                                       (by.fixed ? comparison.steps.size() : 0) + (by.by_limit ? kSafeties.size() : 0));
     for (const auto& [path, values] : comparison.vary)
-      if (concerns(entry, path)) points *= static_cast<double>(values.size());
+      if (has_option(entry, path)) points *= static_cast<double>(values.size());
     each += points;
   }
   return problems * each;

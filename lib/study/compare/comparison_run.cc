@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "lib/scene/mesh_materials.h"
-#include "lib/scene/scene.h"
 #include "lib/study/compare/measurement.h"
 
 namespace orthodyn::study::compare {
@@ -11,12 +9,12 @@ namespace orthodyn::study::compare {
 namespace fs = std::filesystem;
 
 ComparisonRun::ComparisonRun(const Comparison& comparison, Design design, fs::path folder, int ranks,
-                             std::function<void(const Progress&)> tell)
+                             std::function<void(const Progress&)> report)
     : comparison_(comparison),
       design_(std::move(design)),
       folder_(std::move(folder)),
       ranks_(ranks),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       code_(code_fingerprint()),
       count_(design_.points.size()) {
   if (comparison_.reference.kind != ReferenceKind::none) count_ += 2 * design_.groups.size();
@@ -49,7 +47,7 @@ bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t group) {
                                                  reference_scene(g, design_.check), mesh, input));
     if (!reference.check) return false;
   } else {
-    --count_;  // nothing to check
+    --count_;  // no check needed
   }
   references_[group] = std::move(reference);
   return true;
@@ -86,7 +84,7 @@ std::optional<MeasurementResult> ComparisonRun::measure_one(const JobQueue& queu
 
 MeasurementResult ComparisonRun::finish(const Job& job, const Json& result, bool cached) {
   MeasurementResult measured = measurement_from(result);
-  tell_({count_, job.title, cached, measured});
+  report_({count_, job.title, cached, measured});
   return measured;
 }
 
@@ -102,10 +100,10 @@ Job ComparisonRun::job_for(const std::string& title, const std::string& kind, co
   return job;
 }
 
-// Of what a measurement depends on.
+// Fingerprint of everything that a measurement depends on.
 std::string ComparisonRun::fingerprint(const Config& scene, const std::string& mesh, const MeasurementInput& input) {
   Json job = to_json(input);
-  job["reference"] = fs::path(input.reference).filename().string();  // a fingerprint itself
+  job["reference"] = fs::path(input.reference).filename().string();  // the folder's name is a fingerprint
   Fingerprint hash;
   hash.add(machine_fingerprint()).add(scene.dump()).add(job.dump());
   hash.add(fmt::format("{}", comparison_.limits.memory));
@@ -114,16 +112,10 @@ std::string ComparisonRun::fingerprint(const Config& scene, const std::string& m
   return hash.add(mesh_of(scene, mesh)).text();
 }
 
-// With what the named files bring along: elements beside .node, files that a .veg includes. Not loaded twice for a
-// problem, whose points differ in their integrators only.
+// The mesh is loaded once per problem, because a problem's points differ only in their integrators.
 const std::string& ComparisonRun::mesh_of(const Config& scene, const std::string& mesh) {
   std::string& hash = meshes_[mesh];
-  if (!hash.empty()) return hash;
-  try {
-    hash = mesh_fingerprint(load_mesh(read_scene(scene)));
-  } catch (const ConfigError& e) {
-    hash = e.what();  // every run of this problem will say so itself
-  }
+  if (hash.empty()) hash = mesh_hash(scene);
   return hash;
 }
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "lib/simulation/run/machine.h"
-#include "lib/study/compare/pareto_front_table.h"
 #include "lib/study/compare/reference_error.h"
 #include "lib/study/compare/work_precision.h"
 #include "lib/study/jobs/json_values.h"
@@ -31,7 +30,7 @@ Json no_reference(const std::string& method, const Json& message) {
   return {{"kind", "none"}, {"method", method}, {"message", message}, {"checked", false}};
 }
 
-// `wanted`: the comparison asks for references. `own_mesh`: they have meshes of their own.
+// `wanted`: the comparison requests references. `own_mesh`: the reference has another mesh than the points.
 Json reference_json(const Reference* reference, bool wanted, bool own_mesh) {
   if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was requested");
   const MeasurementResult& result = reference->result;
@@ -54,9 +53,9 @@ Json scales_json(const Json& scales, bool at_probes) {
   if (!scales.is_object()) return nullptr;
   return {{"displacement", scales.at("displacement")},
           {"velocity", scales.at("velocity")},
-          {"words", std::string("largest displacement from the rest shape, and largest velocity, of the reference over "
-                                "time, ") +
-                        (at_probes ? "root mean square over the probes" : "in the mass norm")}};
+          {"words",
+           std::string("largest displacement from the rest shape, and largest velocity, of the reference over time, ") +
+               (at_probes ? "root mean square over the probes" : "in the mass norm")}};
 }
 
 Json problem_json(const Design& design, const Problem& problem, const Reference* reference, bool wanted,
@@ -90,31 +89,22 @@ Json method_json(const Method& method) {
           {"control", control_word(method.control)}};
 }
 
-// The names of the errors that cannot be told from the reference's own; all, if that is not known.
+// Names of the errors that are not well above the reference's own error; all names if the reference's error is unknown.
 Json near_reference(const std::optional<TrajectoryErrors>& errors, const std::optional<TrajectoryErrors>& of_reference,
-                    const Reach& reach) {
+                    const ReferenceFloor& floor) {
   Json out = Json::array();
   if (!errors) return out;
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const auto look = [&](const ErrorNorms& a, const ErrorNorms* b, const std::string& prefix) {
-    if (reach.contains(a.final, b ? b->final : kUnknown)) out.push_back(prefix + ".final");
-    if (reach.contains(a.l2, b ? b->l2 : kUnknown)) out.push_back(prefix + ".l2");
-    if (reach.contains(a.max, b ? b->max : kUnknown)) out.push_back(prefix + ".max");
+  const Json measured = to_json(*errors), reference = json_or_null(of_reference);
+  const auto check = [&](const Json& norms, const Json& reference_norms, const std::string& name) {
+    for (const std::string norm : {"final", "l2", "max"})
+      if (floor.covers(number_or_nan(norms.at(norm)), number_or_nan(member(reference_norms, norm))))
+        out.push_back(name + "." + norm);
   };
-  look(errors->displacement, of_reference ? &of_reference->displacement : nullptr, "displacement");
-  look(errors->velocity, of_reference ? &of_reference->velocity : nullptr, "velocity");
-  const auto look_at_each = [&](const auto& named, const auto& of_reference_named, const std::string& prefix) {
-    for (const auto& [name, e] : named) {
-      const ErrorNorms* own = nullptr;
-      for (const auto& [other, norms] : of_reference_named)
-        if (other == name) own = &norms;
-      look(e, own, prefix + name);
-    }
-  };
-  const TrajectoryErrors unknown;
-  const TrajectoryErrors& own = of_reference ? *of_reference : unknown;
-  look_at_each(errors->probes, own.probes, "probes.");
-  look_at_each(errors->quantities, own.quantities, "quantities.");
+  for (const std::string field : {"displacement", "velocity"})
+    check(measured.at(field), member(reference, field), field);
+  for (const std::string list : {"probes", "quantities"})
+    for (const auto& [name, norms] : measured.at(list).items())
+      check(norms, member(member(reference, list), name), list + "." + name);
   return out;
 }
 
@@ -127,12 +117,10 @@ Json point_json(const ComparisonRun& run, std::size_t index, const MeasurementRe
            {"method", method.id},
            {"control", {{"kind", control_word(method.control)}, {"value", point.control}}},
            {"status", measured.at("status")}};
-  for (const char* key :
-       {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics", "peak_memory_bytes",
-        "factor_bytes", "errors", "drift", "drift_over_time", "smallest_det_f", "decisions"})
-    out[key] = member(measured, key);
+  for (const char* key : {"reason", "message"}) out[key] = member(measured, key);
+  for (const auto& key : point_fields().keys()) out[key] = member(measured, key);
   out["near_reference"] =
-      near_reference(result.errors, time_errors_of(reference), Reach(reference, run.design().across_meshes));
+      near_reference(result.errors, time_errors_of(reference), ReferenceFloor(reference, run.design().across_meshes));
   out["scene"] = run.point_folder(index) + "/scene.yaml";
   return out;
 }
@@ -142,7 +130,7 @@ const Reference* reference_of(const ComparisonRun& run, std::size_t problem) {
   return found == run.references().end() ? nullptr : &found->second;
 }
 
-// NaN where the reference's own error is not known.
+// Time error of the reference; NaN if unknown.
 double reference_error(const ComparisonRun& run, std::size_t problem) {
   const auto errors = time_errors_of(reference_of(run, problem));
   return errors ? errors->displacement.l2 : std::numeric_limits<double>::quiet_NaN();
@@ -151,14 +139,13 @@ double reference_error(const ComparisonRun& run, std::size_t problem) {
 // The finished points of a method on a problem, from loose to tight.
 std::vector<WorkPoint> work_points(const ComparisonRun& run, std::size_t problem, std::size_t method) {
   std::vector<WorkPoint> out;
-  const Reach reach(reference_of(run, problem), false);
+  const ReferenceFloor floor(reference_of(run, problem), false);
   for (const auto& [index, result] : run.results()) {
     const Point& point = run.design().points[index];
     if (point.problem != problem || point.method != method || result.failure) continue;
-    if (!result.errors || !result.timing || !std::isfinite(result.errors->displacement.l2)) continue;
+    if (!result.errors || !result.wall || !std::isfinite(result.errors->displacement.l2)) continue;
     const double error = result.errors->displacement.l2;
-    out.push_back(
-        {point.control, error, result.timing->wall.median, !reach.contains(error, reference_error(run, problem))});
+    out.push_back({point.control, error, result.wall->median, !floor.covers(error, reference_error(run, problem))});
   }
   return out;
 }
@@ -188,7 +175,7 @@ void add_conclusions(const ComparisonRun& run, Json& out) {
   out["answers"] = Json::array();
   out["orders"] = Json::array();
   out["pareto_fronts"] = pareto_fronts_json(run, out);
-  if (design.across_meshes) return;  // where the mesh's error remains a method has no order
+  if (design.across_meshes) return;  // errors include the mesh error, so methods show no order in time
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
     std::vector<WorkPoint> all;
     for (std::size_t m = 0; m < design.methods.size(); ++m) {
@@ -204,13 +191,13 @@ void add_conclusions(const ComparisonRun& run, Json& out) {
                                  {"to", fit->to}});
     }
     const double bound = reference_error(run, p);
-    if (std::isnan(bound)) continue;  // there is nothing to conclude
-    for (const double target : targets(all, Reach(reference_of(run, p), false).of(bound)))
+    if (std::isnan(bound)) continue;
+    for (const double target : targets(all, ReferenceFloor(reference_of(run, p), false).at(bound)))
       out["answers"].push_back(answer_json(run, p, target));
   }
 }
 
-// When the oldest of the points was measured; null without any.
+// Time of day of the oldest measurement; null without any.
 Json first_measured(const ComparisonRun& run) {
   Json first;
   for (const auto& [index, result] : run.results())

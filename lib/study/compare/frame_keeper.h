@@ -1,4 +1,4 @@
-// Frames of a run that is measured, for the 3D view of the report.
+// Frames of a measured run for the report's 3D view.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace orthodyn::study::compare {
 
-// Writes the initial state and `output.frames` of the `samples` outputs, evenly spaced, the last among them, with
-// `output.fields`; and where the body is held and loaded.
+// Writes frames with the fields `output.fields`: the initial state and `output.frames` of the `samples` output states,
+// evenly spaced and including the last. Also writes the file of supports and loads.
 class FrameKeeper : public Observer {
  public:
-  // `setup` must outlive it.
+  // `setup` must outlive the keeper.
   FrameKeeper(const std::filesystem::path& folder, const Setup& setup, std::size_t samples)
       : frames_(folder, *setup.built.model, setup.scene.output.fields, &setup.built.model->parts().mesh),
         setup_(folder, setup),

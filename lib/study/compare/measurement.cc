@@ -8,8 +8,7 @@
 
 #include "lib/simulation/error_estimate/mesh_error.h"
 #include "lib/simulation/error_estimate/modal_solution.h"
-#include "lib/simulation/error_estimate/probe_recorder.h"
-#include "lib/simulation/error_estimate/whole_states.h"
+#include "lib/simulation/error_estimate/recorders.h"
 #include "lib/simulation/output/balance.h"
 #include "lib/simulation/run/machine.h"
 #include "lib/simulation/run/run.h"
@@ -24,15 +23,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A run that is watched may take this much longer than a timed one.
-constexpr double kPatience = 3;
-// More of the motion than there is: the trajectory has nothing to do with the reference.
+// Allowed wall time of the observed run, in multiples of the limit for a timed run.
+constexpr double kObservedTimeFactor = 3;
+// Relative error above which a run counts as diverged: the error is larger than the motion.
 constexpr double kDiverged = 1;
-// On another mesh the same motion may be of opposite phase (2), and larger.
+// The limit for a reference on another mesh, where opposite phase alone gives an error of 2.
 constexpr double kDivergedFromAnotherMesh = 3;
 
-// The energy's change at each output, relative to nothing yet.
-class EnergyCourse : public EnergyMeter {
+// Records the change of energy at each output, J.
+class EnergyRecorder : public EnergyMeter {
  public:
   using EnergyMeter::EnergyMeter;
   void on_output(const ObservedState& observed) override {
@@ -47,18 +46,18 @@ std::vector<ProbePoint> probe_points(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   std::vector<ProbePoint> points;
   for (const auto& [name, probe] : setup.scene.output.probes)
-    points.push_back({name, unknowns_of(model, nearest_node(model.parts().mesh, probe.at))});
+    points.push_back({name, global_dofs(model, nearest_node(model.parts().mesh, probe.at))});
   return points;
 }
 
-// Nothing acts on the body from outside: its momenta are constant.
+// True without loads, supports and mass damping: the momenta are then conserved.
 bool is_free(const FemModel& model) {
   const auto& parts = model.parts();
   const bool is_loaded = parts.subdomain ? !parts.load_descriptions.empty() : !parts.loads.empty();
   return !is_loaded && parts.mass_damping == 0 && model.num_dofs_of_all() == 3 * std::ssize(parts.mesh.nodes);
 }
 
-// The same error in every measure.
+// All errors equal to `e`.
 TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes,
                                 const std::vector<FollowedQuantity>& quantities) {
   TrajectoryErrors errors{{e, e, e}, {e, e, e}, {}, {}, e};
@@ -67,7 +66,6 @@ TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes,
   return errors;
 }
 
-// Whether a measurement has seen an inverted element.
 bool was_inverted(const MeasurementResult& result) { return result.smallest_det_f && *result.smallest_det_f <= 0; }
 
 MeasurementResult result_in(const fs::path& folder) {
@@ -75,8 +73,8 @@ MeasurementResult result_in(const fs::path& folder) {
   return json.is_object() ? measurement_from(json) : MeasurementResult{};
 }
 
-// The index of the median.
-std::size_t middle(const std::vector<double>& values) {
+// Index of the (upper) median.
+std::size_t median_index(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
@@ -96,8 +94,8 @@ class Measurement {
 
   MeasurementResult result() {
     describe();
-    if (const auto exact = exact_solution()) take(*exact);
-    else if (time_runs()) watch_run();
+    if (const auto exact = exact_solution()) record_exact(*exact);
+    else if (time_runs()) observe_run();
     return std::move(result_);
   }
 
@@ -120,7 +118,7 @@ class Measurement {
     return ModalSolution::find(*setup_.built.model, setup_.built.initial);
   }
 
-  void take(const ModalSolution& exact) {
+  void record_exact(const ModalSolution& exact) {
     const auto recorder = new_recorder();
     MeshErrorRecorder mesh_error(times_.size());
     const auto& model = *setup_.built.model;
@@ -139,7 +137,8 @@ class Measurement {
   }
 
   std::unique_ptr<TrajectoryRecorder> new_recorder() const {
-    if (!input_.at_probes) return std::make_unique<WholeRecorder>(*setup_.built.model, times_.size(), quantities_);
+    if (!input_.at_probes)
+      return std::make_unique<GlobalTrajectoryRecorder>(*setup_.built.model, times_.size(), quantities_);
     return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size(),
                                            quantities_);
   }
@@ -174,17 +173,20 @@ class Measurement {
       result_.factor_bytes = integrator->factor_bytes();
     }
     if (wall.empty()) return true;
-    result_.timing = Timing{wall.size(), spread(wall), spread(cpu), setup_.built.model->space().sum(peak_memory())};
-    result_.statistics = statistics[middle(wall)];
+    result_.repeats = wall.size();
+    result_.wall = spread(wall);
+    result_.cpu = spread(cpu);
+    result_.peak_memory = setup_.built.model->space().sum(peak_memory());
+    result_.statistics = statistics[median_index(wall)];
     return true;
   }
 
-  void watch_run() {
+  void observe_run() {
     const auto& model = *setup_.built.model;
     const auto integrator = fresh_integrator();
     const auto trajectory = new_recorder();
     MeshErrorRecorder mesh_error(times_.size());
-    EnergyCourse energy(model, *integrator);
+    EnergyRecorder energy(model, *integrator);
     MomentumMeter momentum;
     InversionWatch inversion;
     std::vector<Observer*> observers{trajectory.get(), &energy, &inversion};
@@ -192,10 +194,10 @@ class Measurement {
     if (keeps_frames()) observers.push_back(&frames_);
     if (input_.keep_trajectory) observers.push_back(&mesh_error);
     const Plan plan{setup_.scene.time.end, times_, false};
-    const auto outcome = run_once(observers, plan, *integrator, kPatience * input_.seconds);
+    const auto outcome = run_once(observers, plan, *integrator, kObservedTimeFactor * input_.seconds);
     if (!outcome) return;
     result_.kind = MeasurementResult::Kind::computed;
-    if (!result_.timing) result_.statistics = integrator->statistics(), result_.seconds = outcome->wall_seconds;
+    if (!result_.wall) result_.statistics = integrator->statistics(), result_.seconds = outcome->wall_seconds;
     result_.drift = drift_of(energy, momentum);
     result_.drift_over_time = EnergyChange{energy.times, {}};
     for (const double change : energy.changes)
@@ -205,7 +207,7 @@ class Measurement {
     compare(trajectory->trajectory());
   }
 
-  // Nothing if the run did not complete, which is then in the result.
+  // Empty if the run failed; the failure is then stored in the result.
   std::optional<Outcome> run_once(std::vector<Observer*> observers, const Plan& plan, Integrator& integrator,
                                   double seconds) {
     Deadline deadline(seconds);
@@ -219,7 +221,7 @@ class Measurement {
     return std::nullopt;
   }
 
-  // With what the set-up has decided: nothing is estimated again.
+  // Reuses the decisions of the set-up: scales are not estimated again.
   std::unique_ptr<Integrator> fresh_integrator() const {
     Task task = task_of(setup_.scene, setup_.built);
     task.scales = []() -> Scales { throw std::logic_error("scales are known"); };
@@ -232,7 +234,8 @@ class Measurement {
     const auto relative = [&](double drift, double scale) {
       return is_kept && scale > 0 ? drift / scale : std::numeric_limits<double>::quiet_NaN();
     };
-    // What momentum the largest energy could be: a body at rest has none of its own to compare with.
+    // Scales of the momenta: those of the whole mass m with the largest energy E as kinetic energy, sqrt(2 m E). The
+    // body's own momenta may be zero.
     const double linear = std::sqrt(2 * parts.mass->total() * energy.scale());
     const double angular = linear * bounding_box(parts.mesh).diagonal() / 2;
     return {energy.relative_drift(), relative(momentum.linear_drift(), linear),
@@ -253,7 +256,7 @@ class Measurement {
     if (!(result_.errors->displacement.max <= most) && !nothing_moves)
       result_.failure = Failure{"diverged", "the error is larger than the motion"};
     else if (was_inverted(result_) && !was_inverted(result_in(folder)))
-      result_.failure = Failure{"inverted", "an element was inverted, which does not happen in the reference"};
+      result_.failure = Failure{"inverted", "an element was inverted; none is inverted in the reference"};
   }
 
   Setup setup_;
@@ -274,7 +277,8 @@ std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<
   for (const auto& name : names) {
     all.push_back(find_quantity(name, setup.scene, *setup.built.model, origin));
     if (!all.back().values)
-      origin.fail("'" + name + "' has no error of its own: the drift of the energy is measured of every point");
+      origin.fail("'" + name +
+                  "' cannot be compared with a reference; the energy drift is measured for every point anyway");
     if (all.back().components() > 1 && !all.back().is_vector()) origin.fail(all.back().ask_for_component());
   }
   return all;

@@ -1,5 +1,5 @@
-// One scene, integrated several times undisturbed for its cost, then once with all observers for its errors and
-// drifts.
+// The measurement of one scene: several timed integrations without observers give the cost, then one with observers
+// gives errors and drifts.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,20 @@
 
 namespace orthodyn::study::compare {
 
-// The states of a reference, in its folder.
+// File with the trajectory of a reference, in the reference's folder.
 inline constexpr const char* kTrajectoryFile = "trajectory.bin";
 
-// The quantities of a comparison in one of its scenes. Throws ConfigError at `origin` for what the scene does not have.
+// Looks up a comparison's quantities in one of its scenes. Throws ConfigError at `origin` if a quantity is unknown or
+// cannot be compared with a reference.
 std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<std::string>& names,
                                           const SourceLocation& origin);
 
-// Trajectories that are to be kept go to `folder`. A run that fails is a result. Throws RunError if a reference cannot
-// be read or a trajectory not be written.
+// Measures a scene. If `input` asks for the trajectory, writes it to `folder`. A failed run is a result, not an
+// exception. Throws RunError if the reference cannot be read or the trajectory cannot be written.
 MeasurementResult measure(Setup setup, const MeasurementInput& input, const std::filesystem::path& folder);
 
-// Does the job of a folder; all `ranks` that compute it together call this, null for this process alone. Throws as
-// serve_job() does.
+// Does the job in `folder`. `ranks`: the processes that share the job; each must call this function. Null for one
+// process. Throws as serve_job() does.
 void measure(const std::filesystem::path& folder, const Ranks* ranks);
 
 }  // namespace orthodyn::study::compare

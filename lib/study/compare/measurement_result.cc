@@ -3,136 +3,104 @@
 #include <algorithm>
 
 #include "lib/simulation/output/json.h"
-#include "lib/study/jobs/json_values.h"
 
-namespace orthodyn::study::compare {
+namespace orthodyn {
 
-namespace {
+template <>
+struct EnumNames<study::compare::MeasurementResult::Kind> {
+  using Kind = study::compare::MeasurementResult::Kind;
+  static constexpr std::array<std::pair<Kind, const char*>, 2> list{
+      {{Kind::exact, "exact"}, {Kind::computed, "computed"}}};
+};
 
-Json to_json(const ErrorNorms& e) {
-  return {{"final", finite_or_null(e.final)}, {"l2", finite_or_null(e.l2)}, {"max", finite_or_null(e.max)}};
+}  // namespace orthodyn
+
+namespace orthodyn::study {
+
+template <>
+const JsonFields<compare::MeasurementInput> json_fields<compare::MeasurementInput>{
+    {"repeats", &compare::MeasurementInput::repeats},
+    {"samples", &compare::MeasurementInput::samples},
+    {"seconds", &compare::MeasurementInput::seconds},
+    {"reference", &compare::MeasurementInput::reference},
+    {"keep_trajectory", &compare::MeasurementInput::keep_trajectory},
+    {"exact_if_possible", &compare::MeasurementInput::exact_if_possible},
+    {"at_probes", &compare::MeasurementInput::at_probes},
+    {"quantities", &compare::MeasurementInput::quantities},
+    {"code", &compare::MeasurementInput::code}};
+
+template <>
+const JsonFields<compare::ModelSize> json_fields<compare::ModelSize>{
+    {"unknowns", &compare::ModelSize::unknowns}, {"elements", &compare::ModelSize::elements},
+    {"nodes", &compare::ModelSize::nodes},       {"start", &compare::ModelSize::start},
+    {"end", &compare::ModelSize::end},           {"order", &compare::ModelSize::order}};
+
+template <>
+const JsonFields<compare::Spread> json_fields<compare::Spread>{{"median", &compare::Spread::median, {"median"}},
+                                                               {"min", &compare::Spread::min, {"min"}},
+                                                               {"max", &compare::Spread::max, {"max"}}};
+
+template <>
+const JsonFields<ErrorNorms> json_fields<ErrorNorms>{
+    {"final", &ErrorNorms::final, {"final"}}, {"l2", &ErrorNorms::l2, {"l2"}}, {"max", &ErrorNorms::max, {"max"}}};
+
+template <>
+const JsonFields<TrajectoryErrors> json_fields<TrajectoryErrors>{
+    {"displacement", &TrajectoryErrors::displacement, {"displacement"}},
+    {"velocity", &TrajectoryErrors::velocity, {"velocity"}},
+    {"probes", &TrajectoryErrors::probes, {"probe"}},
+    {"quantities", &TrajectoryErrors::quantities, {""}},
+    {"phase", &TrajectoryErrors::phase, {"phase", "rad"}}};
+
+template <>
+const JsonFields<TrajectoryScales> json_fields<TrajectoryScales>{
+    {"displacement", &TrajectoryScales::displacement},
+    {"velocity", &TrajectoryScales::velocity},
+    {"probes", &TrajectoryScales::probes},
+    {"quantities", &TrajectoryScales::quantities},
+    {"dominant_frequency", &TrajectoryScales::dominant_frequency}};
+
+template <>
+const JsonFields<compare::Drift> json_fields<compare::Drift>{
+    {"energy", &compare::Drift::energy, {"energy"}},
+    {"linear_momentum", &compare::Drift::linear_momentum, {"linear_momentum"}},
+    {"angular_momentum", &compare::Drift::angular_momentum, {"angular_momentum"}}};
+
+template <>
+const JsonFields<compare::EnergyChange> json_fields<compare::EnergyChange>{{"t", &compare::EnergyChange::times},
+                                                                           {"energy", &compare::EnergyChange::changes}};
+
+// The members of a result that are not in point_fields().
+template <>
+const JsonFields<compare::MeasurementResult> json_fields<compare::MeasurementResult>{
+    {"model", &compare::MeasurementResult::model},           {"kind", &compare::MeasurementResult::kind},
+    {"own_errors", &compare::MeasurementResult::own_errors}, {"mesh_error", &compare::MeasurementResult::mesh_error},
+    {"seconds", &compare::MeasurementResult::seconds},       {"scales", &compare::MeasurementResult::scales},
+    {"at", &compare::MeasurementResult::at, Empty::omitted}};
+
+namespace compare {
+
+const JsonFields<MeasurementResult>& point_fields() {
+  using R = MeasurementResult;
+  static const JsonFields<R> fields{{"time_reached", &R::time_reached, {"time_reached", "s"}},
+                                    {"repeats", &R::repeats, {"repeats"}},
+                                    {"wall", &R::wall, {"wall", "s"}},
+                                    {"cpu", &R::cpu, {"cpu", "s"}},
+                                    {"statistics", &R::statistics, {""}},
+                                    {"peak_memory_bytes", &R::peak_memory, {"peak_memory", "bytes"}},
+                                    {"factor_bytes", &R::factor_bytes, {"factor", "bytes"}},
+                                    {"errors", &R::errors, {"error"}},
+                                    {"drift", &R::drift, {"drift"}},
+                                    {"drift_over_time", &R::drift_over_time},
+                                    {"smallest_det_f", &R::smallest_det_f, {"smallest_det_f"}},
+                                    {"decisions", &R::decisions}};
+  return fields;
 }
 
-ErrorNorms norms_from(const Json& json) {
-  return {number_or_nan(json.at("final")), number_or_nan(json.at("l2")), number_or_nan(json.at("max"))};
-}
-
-Json to_json(const ModelSize& m) {
-  return {{"unknowns", m.unknowns}, {"elements", m.elements}, {"nodes", m.nodes},
-          {"start", m.start},       {"end", m.end},           {"order", m.order}};
-}
-
-ModelSize model_from(const Json& json) {
-  return {json.at("unknowns"), json.at("elements"), json.at("nodes"),
-          json.at("start"),    json.at("end"),      json.at("order")};
-}
-
-Json to_json(const Spread& s) { return {{"median", s.median}, {"min", s.min}, {"max", s.max}}; }
-
-Spread spread_from(const Json& json) { return {json.at("median"), json.at("min"), json.at("max")}; }
-
-Json to_json(const Drift& d) {
-  return {{"energy", finite_or_null(d.energy)},
-          {"linear_momentum", finite_or_null(d.linear_momentum)},
-          {"angular_momentum", finite_or_null(d.angular_momentum)}};
-}
-
-Drift drift_from(const Json& json) {
-  return {number_or_nan(json.at("energy")), number_or_nan(json.at("linear_momentum")),
-          number_or_nan(json.at("angular_momentum"))};
-}
-
-Json to_json(const EnergyChange& c) { return {{"t", c.times}, {"energy", numbers_json(c.changes)}}; }
-
-EnergyChange energy_change_from(const Json& json) {
-  return {numbers_from(json.at("t")), numbers_from(json.at("energy"))};
-}
-
-constexpr const char* kind_word(MeasurementResult::Kind kind) {
-  return kind == MeasurementResult::Kind::exact ? "exact" : "computed";
-}
-
-void put_timing(Json& json, const Timing& timing, const Statistics& statistics) {
-  json["repeats"] = timing.repeats;
-  json["wall"] = to_json(timing.wall);
-  json["cpu"] = to_json(timing.cpu);
-  json["statistics"] = to_json(statistics);
-  json["peak_memory_bytes"] = timing.peak_memory;
-}
-
-// Reads the value of a key, if it is there.
-template <class T, class Read>
-void take(const Json& json, const char* key, std::optional<T>& value, const Read& read) {
-  if (json.contains(key)) value = read(json.at(key));
-}
-
-}  // namespace
-
-Json to_json(const TrajectoryErrors& errors) {
-  Json probes = Json::object(), quantities = Json::object();
-  for (const auto& [name, e] : errors.probes) probes[name] = to_json(e);
-  for (const auto& [name, e] : errors.quantities) quantities[name] = to_json(e);
-  return {{"displacement", to_json(errors.displacement)},
-          {"velocity", to_json(errors.velocity)},
-          {"probes", probes},
-          {"quantities", quantities},
-          {"phase", finite_or_null(errors.phase)}};
-}
-
-TrajectoryErrors errors_from(const Json& json) {
-  TrajectoryErrors errors{
-      norms_from(json.at("displacement")), norms_from(json.at("velocity")), {}, {}, number_or_nan(json.at("phase"))};
-  for (const auto& [name, e] : json.at("probes").items()) errors.probes.emplace_back(name, norms_from(e));
-  for (const auto& [name, e] : json.at("quantities").items()) errors.quantities.emplace_back(name, norms_from(e));
-  return errors;
-}
-
-Json to_json(const TrajectoryScales& scales) {
-  Json probes = Json::object(), quantities = Json::object();
-  for (const auto& [name, length] : scales.probes) probes[name] = finite_or_null(length);
-  for (const auto& [name, size] : scales.quantities) quantities[name] = finite_or_null(size);
-  return {{"displacement", finite_or_null(scales.displacement)},
-          {"velocity", finite_or_null(scales.velocity)},
-          {"probes", probes},
-          {"quantities", quantities},
-          {"dominant_frequency", finite_or_null(scales.dominant_frequency)}};
-}
-
-TrajectoryScales scales_from(const Json& json) {
-  TrajectoryScales scales{number_or_nan(json.at("displacement")),
-                          number_or_nan(json.at("velocity")),
-                          {},
-                          {},
-                          number_or_nan(json.at("dominant_frequency"))};
-  for (const auto& [name, length] : json.at("probes").items()) scales.probes.emplace_back(name, number_or_nan(length));
-  for (const auto& [name, size] : json.at("quantities").items())
-    scales.quantities.emplace_back(name, number_or_nan(size));
-  return scales;
-}
-
-Json to_json(const MeasurementInput& i) {
-  return {{"repeats", i.repeats},
-          {"samples", i.samples},
-          {"seconds", i.seconds},
-          {"reference", i.reference},
-          {"keep_trajectory", i.keep_trajectory},
-          {"exact_if_possible", i.exact_if_possible},
-          {"at_probes", i.at_probes},
-          {"quantities", i.quantities},
-          {"code", i.code}};
-}
-
-MeasurementInput measurement_input_from(const Json& json) {
-  return {.repeats = json.at("repeats"),
-          .samples = json.at("samples"),
-          .seconds = json.at("seconds"),
-          .reference = json.at("reference"),
-          .keep_trajectory = json.at("keep_trajectory"),
-          .exact_if_possible = json.at("exact_if_possible"),
-          .at_probes = json.at("at_probes"),
-          .quantities = json.at("quantities"),
-          .code = json.at("code")};
-}
+Json to_json(const TrajectoryErrors& errors) { return JsonValue<TrajectoryErrors>::to(errors); }
+Json to_json(const TrajectoryScales& scales) { return JsonValue<TrajectoryScales>::to(scales); }
+Json to_json(const MeasurementInput& input) { return JsonValue<MeasurementInput>::to(input); }
+MeasurementInput measurement_input_from(const Json& json) { return JsonValue<MeasurementInput>::from(json); }
 
 Spread spread(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -141,55 +109,20 @@ Spread spread(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
-Json to_json(const MeasurementResult& r) {
-  Json json{{"status", r.failure ? "failed" : "completed"}};
-  if (r.model) {
-    json["model"] = to_json(*r.model);
-    json["decisions"] = Json::object();
-    for (const auto& [key, value] : r.decisions) json["decisions"][key] = value;
-  }
-  if (r.time_reached) json["time_reached"] = *r.time_reached;
-  if (r.factor_bytes) json["factor_bytes"] = *r.factor_bytes;
-  if (r.timing) put_timing(json, *r.timing, r.statistics.value_or(Statistics{}));
-  if (r.kind) json["kind"] = kind_word(*r.kind);
-  if (r.own_errors) json["own_errors"] = to_json(*r.own_errors);
-  if (r.kind && r.statistics) json["statistics"] = to_json(*r.statistics);
-  if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
-  if (r.seconds) json["seconds"] = *r.seconds;
-  if (r.drift) json["drift"] = to_json(*r.drift);
-  if (r.drift_over_time) json["drift_over_time"] = to_json(*r.drift_over_time);
-  if (r.smallest_det_f) json["smallest_det_f"] = finite_or_null(*r.smallest_det_f);
-  if (r.scales) json["scales"] = to_json(*r.scales);
-  if (r.errors) json["errors"] = to_json(*r.errors);
-  if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
-  if (r.statistics) json["statistics"] = to_json(*r.statistics);  // where it stands already, or else at the end
+Json to_json(const MeasurementResult& result) {
+  Json json = status_json(result.failure);
+  point_fields().write(result, json);
+  json_fields<MeasurementResult>.write(result, json);
   return json;
 }
 
 MeasurementResult measurement_from(const Json& json) {
-  using Kind = MeasurementResult::Kind;
-  MeasurementResult r;
-  r.failure = failure_from(json);
-  take(json, "model", r.model, model_from);
-  const Json decisions = member(json, "decisions");
-  for (const auto& [key, value] : decisions.items()) r.decisions.emplace_back(key, value);
-  take(json, "time_reached", r.time_reached, number_or_nan);
-  take(json, "factor_bytes", r.factor_bytes, [](const Json& x) { return x.get<std::size_t>(); });
-  if (json.contains("wall"))
-    r.timing = Timing{json.at("repeats"), spread_from(json.at("wall")), spread_from(json.at("cpu")),
-                      number_or_nan(json.at("peak_memory_bytes"))};
-  take(json, "statistics", r.statistics, statistics_from);
-  take(json, "kind", r.kind, [](const Json& word) { return word == "exact" ? Kind::exact : Kind::computed; });
-  take(json, "own_errors", r.own_errors, errors_from);
-  take(json, "mesh_error", r.mesh_error, number_or_nan);
-  take(json, "seconds", r.seconds, number_or_nan);
-  take(json, "drift", r.drift, drift_from);
-  take(json, "drift_over_time", r.drift_over_time, energy_change_from);
-  take(json, "smallest_det_f", r.smallest_det_f, number_or_nan);
-  take(json, "scales", r.scales, scales_from);
-  take(json, "errors", r.errors, errors_from);
-  r.at = json.value("at", "");
-  return r;
+  MeasurementResult result = json_fields<MeasurementResult>.read(json);
+  point_fields().read(json, result);
+  result.failure = failure_from(json);
+  return result;
 }
 
-}  // namespace orthodyn::study::compare
+}  // namespace compare
+
+}  // namespace orthodyn::study

@@ -1,36 +1,29 @@
-// What is measured of one point of a comparison: the border, as JSON, between the process that compares and the one
-// that measures.
+// One measurement of a comparison: its input and its result, exchanged as JSON between the process that compares and
+// the one that measures. To add a quantity, add a member of MeasurementResult and a row in measurement_result.cc;
+// compare.json and compare.csv follow from the rows.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "lib/ode/statistics.h"
 #include "lib/simulation/error_estimate/error_norms.h"
 #include "lib/study/jobs/job_result.h"
+#include "lib/study/jobs/json_fields.h"
 
 namespace orthodyn::study::compare {
 
-// Errors, and the sizes that they are relative to.
-Json to_json(const TrajectoryErrors& errors);
-TrajectoryErrors errors_from(const Json& json);
-
-Json to_json(const TrajectoryScales& scales);
-TrajectoryScales scales_from(const Json& json);
-
-// What is to be done.
 struct MeasurementInput {
-  int repeats = 1, samples = 100;
-  double seconds = 60;                       // limit of one integration
-  std::string reference;                     // folder of a reference's result; "" for none
-  bool keep_trajectory = false;              // for others to be measured against
-  bool exact_if_possible = false;            // the exact solution in place of an integration, where there is one
-  bool at_probes = false;                    // errors of the probes alone: the reference has another mesh
-  std::vector<std::string> quantities = {};  // whose errors are measured too
-  std::string code;                          // fingerprint of the program that is to do it
+  int repeats = 1, samples = 100;  // timed runs; times at which errors are measured
+  double seconds = 60;             // wall time limit of a timed run, s
+  std::string reference;           // folder of the reference's result; "" for none
+  bool keep_trajectory = false;    // write the trajectory, with which other measurements are compared
+  bool exact_if_possible = false;  // if there is an exact solution, use it instead of an integration
+  bool at_probes = false;          // measure errors at the probes only, because the reference has another mesh
+  std::vector<std::string> quantities = {};  // quantities whose errors are measured too
+  std::string code;                          // fingerprint of the program that must do the work
 };
 
 Json to_json(const MeasurementInput& input);
@@ -38,7 +31,7 @@ MeasurementInput measurement_input_from(const Json& json);
 
 struct ModelSize {
   std::size_t unknowns = 0, elements = 0, nodes = 0;
-  double start = 0, end = 0;  // of time, s
+  double start = 0, end = 0;  // of the integration, s
   int order = 1;              // of the elements
 };
 
@@ -46,50 +39,54 @@ struct Spread {
   double median = 0, min = 0, max = 0;
 };
 
-// Precondition: not empty.
+// Precondition: `values` is not empty.
 Spread spread(std::vector<double> values);
 
-// Of the undisturbed runs.
-struct Timing {
-  std::size_t repeats = 0;
-  Spread wall, cpu;        // s
-  double peak_memory = 0;  // bytes
-};
-
-// By how much what should be constant has changed, relative; NaN where it need not be constant.
+// Largest change of the energy balance, relative to the largest kinetic or elastic energy E, and of the momenta,
+// relative to sqrt(2 m E) and to d/2 sqrt(2 m E), where m is the mass and d the diagonal of the bounding box. Momenta
+// are NaN unless the body is free of supports, loads and mass damping.
 struct Drift {
   double energy = 0, linear_momentum = 0, angular_momentum = 0;
 };
 
 struct EnergyChange {
-  std::vector<double> times, changes;  // s; relative
+  std::vector<double> times, changes;  // s; change of the energy balance, relative to the largest energy
 };
 
-// What came out: of a failure all that was known by then.
+// Result of a measurement. After a failure, it holds all that was known by then.
 struct MeasurementResult {
   enum class Kind { exact, computed };
 
-  std::optional<Failure> failure;  // else it was completed
-  std::optional<ModelSize> model;
-  std::vector<std::pair<std::string, std::string>> decisions;  // of the integrator
-  std::optional<double> time_reached;                          // s
-  std::optional<std::size_t> factor_bytes;
-  std::optional<Timing> timing;
-  std::optional<Statistics> statistics;  // of the run with the median time
-  std::optional<Kind> kind;
-  std::optional<TrajectoryErrors> own_errors;  // what round-off may do to an exact solution
-  std::optional<double> mesh_error;            // MeshError::relative, of a reference for other meshes
-  std::optional<double> seconds;               // wall time of a run that was not timed
+  std::optional<Failure> failure;           // empty if completed
+  std::optional<double> time_reached;       // by the last run, s
+  std::optional<std::size_t> repeats;       // number of timed runs
+  std::optional<Spread> wall, cpu;          // of the timed runs, s
+  std::optional<Statistics> statistics;     // of the run with the median wall time
+  std::optional<double> peak_memory;        // bytes, of all ranks
+  std::optional<std::size_t> factor_bytes;  // Integrator::factor_bytes()
+  std::optional<TrajectoryErrors> errors;   // against the reference
   std::optional<Drift> drift;
   std::optional<EnergyChange> drift_over_time;
-  std::optional<double> smallest_det_f;  // NaN where none is known
+  std::optional<double> smallest_det_f;         // smallest det F of all elements and steps; NaN if unknown
+  std::optional<Named<std::string>> decisions;  // by the integrator, for keys that the input left open
+
+  std::optional<ModelSize> model;
+  std::optional<Kind> kind;
+  std::optional<TrajectoryErrors> own_errors;  // round-off of an exact solution
+  std::optional<double> mesh_error;            // MeshError::relative, of a reference
+  std::optional<double> seconds;               // wall time of a run without timed repeats
   std::optional<TrajectoryScales> scales;
-  std::optional<TrajectoryErrors> errors;  // against the reference
-  std::string at;                          // when: 2026-01-31T12:00:00Z
+  std::string at;  // end of the measurement: 2026-01-31T12:00:00Z
 };
 
-// The keys of what is absent are absent.
+// The members of a result that compare.json shows for each point. Those with a heading are also columns of compare.csv.
+const JsonFields<MeasurementResult>& point_fields();
+
+// Members without a value have no key in the JSON object.
 Json to_json(const MeasurementResult& result);
 MeasurementResult measurement_from(const Json& json);
+
+Json to_json(const TrajectoryErrors& errors);
+Json to_json(const TrajectoryScales& scales);
 
 }  // namespace orthodyn::study::compare

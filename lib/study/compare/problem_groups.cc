@@ -1,16 +1,16 @@
 #include "lib/study/compare/problem_groups.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
-#include "lib/study/compare/identifiers.h"
 #include "lib/study/inputs/labels.h"
 
 namespace orthodyn::study::compare {
 
 namespace {
 
-// Changes of a problem that are not of its mesh, and all that `vary` makes in words.
+// The changes of a problem, divided into those of the mesh and all others.
 struct Split {
   Assignments others;
   std::string mesh_words, other_words;
@@ -20,27 +20,27 @@ Split split_of(const SceneEntry& scene, const Variant& variant) {
   Split split;
   for (const auto* set : {&scene.set, &variant.set})
     for (const auto& [path, value] : *set)
-      if (!is_of_mesh(path)) split.others.emplace_back(path, value);
+      if (!keeps_body(path)) split.others.emplace_back(path, value);
   for (const auto& [path, value] : variant.set)
-    (is_of_mesh(path) ? split.mesh_words : split.other_words) += words_of(path, value);
+    (keeps_body(path) ? split.mesh_words : split.other_words) += words_of(path, value);
   return split;
 }
 
-// By what a reference is found again.
+// Problems with equal keys share a reference.
 std::string key_of(const SceneEntry& scene, const Assignments& others) {
   std::string key = scene.file.path;
   for (const auto& [path, value] : others) key += "\n" + path + ": " + value.text;
   return key;
 }
 
-// On the mesh of the scene's file, but for what is set for the reference.
+// The scene of a reference. Its mesh is that of the scene's file, with the changes of `reference.set`.
 SceneVariant reference_of(const Comparison& comparison, const SceneVariant& problem, const Split& split) {
   SceneVariant reference{problem.file, problem.text, split.others};
   reference.set.insert(reference.set.end(), comparison.reference.set.begin(), comparison.reference.set.end());
   return reference;
 }
 
-// Points of other meshes are compared where the scene has probes.
+// Throws ConfigError if the scene has no probes: solutions on different meshes are compared at probes.
 void require_probes(const Comparison& comparison, const SceneEntry& scene, const SceneVariant& variant) {
   Config config = Config::from_text(variant.text, variant.file);
   assign(config, variant.set);
@@ -48,12 +48,12 @@ void require_probes(const Comparison& comparison, const SceneEntry& scene, const
       !config.at("output").at("probes").keys().empty())
     return;
   comparison.reference.set.front().second.origin.fail(
-      "with a mesh of the reference's own, errors are those of the probes, and the scene " + scene.label +
+      "a reference with its own mesh needs probes, at which errors are measured; the scene " + scene.label +
       " has none: add 'output: {probes: {tip: {at: [1, 0, 0]}}}' to it, or 'output.probes.tip.at: [1, 0, 0]' to its "
       "'set'");
 }
 
-// Members whose entries differ are told apart by these.
+// Labels the groups. Labels the members of a group by what distinguishes them: scene entries and changes of the mesh.
 void name_members(const Comparison& comparison, const std::vector<std::size_t>& entry_of, Design& design) {
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     std::set<std::size_t> entries;
@@ -72,8 +72,8 @@ void name_members(const Comparison& comparison, const std::vector<std::size_t>& 
   }
 }
 
-// Each scene is measured against a reference of its own.
-void group_alone(Design& design) {
+// Gives each scene its own reference.
+void group_individually(Design& design) {
   for (auto& problem : design.problems) {
     problem.group = design.groups.size();
     problem.mesh = problem.label;
@@ -82,6 +82,25 @@ void group_alone(Design& design) {
 }
 
 }  // namespace
+
+std::string last_key(const std::string& path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+std::string words_of(const std::string& path, const YamlText& value) {
+  return ", " + last_key(path) + " " + value.text;
+}
+
+std::string identifier(const std::string& label) {
+  std::string id;
+  for (const char c : label) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.') id += c;
+    else if (!id.empty() && id.back() != '-') id += '-';
+  }
+  while (id.ends_with('-')) id.pop_back();
+  return id.empty() ? "unnamed" : id;
+}
 
 void add_problems(const Comparison& comparison, const std::vector<Variant>& variants, Design& design) {
   design.across_meshes = !comparison.reference.set.empty();
@@ -110,7 +129,7 @@ void add_problems(const Comparison& comparison, const std::vector<Variant>& vari
     }
   }
   identify(design.problems);
-  if (!design.across_meshes) return group_alone(design);
+  if (!design.across_meshes) return group_individually(design);
   name_members(comparison, entry_of, design);
   identify(design.groups);
 }

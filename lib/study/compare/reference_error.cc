@@ -17,7 +17,7 @@ std::optional<TrajectoryErrors> time_errors_of(const Reference* reference) {
 
 namespace {
 
-// Of the dominant frequency, over the whole time; 0 where there is none.
+// Number of periods of the dominant frequency in the integration time; 0 if there is no such frequency.
 double periods_of(const MeasurementResult& result) {
   if (!result.model || !result.scales || !std::isfinite(result.scales->dominant_frequency)) return 0;
   return result.scales->dominant_frequency * (result.model->end - result.model->start);
@@ -25,15 +25,15 @@ double periods_of(const MeasurementResult& result) {
 
 }  // namespace
 
-Reach::Reach(const Reference* reference, bool across_meshes) {
+ReferenceFloor::ReferenceFloor(const Reference* reference, bool across_meshes) {
   if (!across_meshes || !reference) return;
   const MeasurementResult& result = reference->result;
   mesh_error_ = result.mesh_error.value_or(std::numeric_limits<double>::quiet_NaN()) *
                 std::max(1.0, std::numbers::pi * periods_of(result));
 }
 
-bool Reach::contains(double error, double time_error) const {
-  return std::isfinite(error) && !(error >= of(time_error));
+bool ReferenceFloor::covers(double error, double time_error) const {
+  return std::isfinite(error) && !(error >= at(time_error));
 }
 
 }  // namespace orthodyn::study::compare

@@ -1,4 +1,4 @@
-// How far a reference may be off itself, and which errors cannot be told from that.
+// The error of a reference, and the smallest error that can be measured against it.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,23 @@ namespace orthodyn::study::compare {
 
 bool is_exact(const Reference& reference);
 
-// In time: round-off of an exact solution, or the difference to the check; nothing where it is not known.
+// Time error of a reference: the round-off of an exact solution, or the difference from the check; empty if unknown.
 std::optional<TrajectoryErrors> time_errors_of(const Reference* reference);
 
-// Below it an error says little of the point: ten times the reference's own in time, and where it has a mesh of its own
-// (`across_meshes`) twice the estimate of that mesh's: half
-// of which the frequencies of its vibrations are off, so that over n periods the phase is by pi n times it. NaN where
-// either is not known.
-class Reach {
+// The smallest error that can be measured against a reference:
+//   floor = 10 e_t + 2 e_m max(1, pi n)
+// where e_t is the reference's time error, e_m its estimated mesh error, and n the number of periods of the dominant
+// frequency in the integration time. The mesh error changes the frequency by a relative e_m / 2, which in n periods
+// becomes a phase error of pi n e_m. e_m is 0 unless the reference has its own mesh (`across_meshes`). The floor is NaN
+// if e_t or e_m is unknown.
+class ReferenceFloor {
  public:
-  Reach(const Reference* reference, bool across_meshes);
+  ReferenceFloor(const Reference* reference, bool across_meshes);
 
-  // In a measure in which the reference's own error in time is this.
-  double of(double time_error) const { return 10 * time_error + 2 * mesh_error_; }
-  bool contains(double error, double time_error) const;
+  // The floor in one norm. `time_error`: e_t in this norm.
+  double at(double time_error) const { return 10 * time_error + 2 * mesh_error_; }
+  // True for a finite error below the floor, and for any finite error if the floor is unknown.
+  bool covers(double error, double time_error) const;
 
  private:
   double mesh_error_ = 0;

@@ -10,7 +10,7 @@ std::optional<double> seconds_to_reach(double target, const std::vector<WorkPoin
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const WorkPoint& tight = points[i];
-    if (!(tight.error <= kAsGood * target)) continue;
+    if (!(tight.error <= kTargetTolerance * target)) continue;
     best = std::min(best, tight.seconds);
     if (i == 0 || tight.error > target || !(points[i - 1].error > target) || tight.error == 0) continue;
     const WorkPoint& loose = points[i - 1];
@@ -42,7 +42,7 @@ std::vector<double> targets(const std::vector<WorkPoint>& points, double floor) 
   for (const auto& p : points) smallest = std::min(smallest, p.error);
   std::vector<double> out;
   for (int exponent = -1; exponent >= -12; --exponent)
-    if (const double target = std::pow(10, exponent); kAsGood * target >= smallest && target > floor)
+    if (const double target = std::pow(10, exponent); kTargetTolerance * target >= smallest && target > floor)
       out.push_back(target);
   return out;
 }

@@ -13,31 +13,31 @@ namespace orthodyn::study::converge {
 
 namespace {
 
-std::string name_of(Take take, const std::string& quantity) {
-  return take == Take::end ? quantity : fmt::format("{} of {}", Value<Take>::yaml(take), quantity);
+std::string name_of(TimeReduction take, const std::string& quantity) {
+  return take == TimeReduction::end ? quantity : fmt::format("{} of {}", Value<TimeReduction>::yaml(take), quantity);
 }
 
 void add(Named<WantedMetric>& metrics, WantedMetric metric, std::string name) {
-  for (const auto& [other, f] : metrics)
+  for (const auto& [other, m] : metrics)
     if (other == name) return;
   metric.origin.where = name;
   metrics.emplace_back(std::move(name), std::move(metric));
 }
 
-void add(Named<WantedMetric>& metrics, Take take, const std::string& quantity) {
+void add(Named<WantedMetric>& metrics, TimeReduction take, const std::string& quantity) {
   add(metrics, {.quantity = quantity, .take = take}, name_of(take, quantity));
 }
 
 // "max of tip.displacement.z"
 void add_named(Named<WantedMetric>& metrics, const std::string& text) {
   const auto of = text.find(" of ");
-  if (of == std::string::npos) return add(metrics, Take::end, text);
+  if (of == std::string::npos) return add(metrics, TimeReduction::end, text);
   const Config take = Config::from_text(text.substr(0, of), "--quantity " + text);
-  add(metrics, Value<Take>::read(take, {}), text.substr(of + 4));
+  add(metrics, Value<TimeReduction>::read(take, {}), text.substr(of + 4));
 }
 
-// What the scene expects, or else how far its probes move, or else its energy.
-void add_usual(Named<WantedMetric>& metrics, const Scene& scene) {
+// Default metrics: the scene's expectations, otherwise the displacements of its probes, otherwise its elastic energy.
+void add_defaults(Named<WantedMetric>& metrics, const Scene& scene) {
   const bool is_static = scene.is_static();
   for (const Expectation& e : scene.expect)
     if (e.is_eigenvalue()) add(metrics, {.mode = e.mode, .buckling = e.buckling}, e.title());
@@ -45,10 +45,10 @@ void add_usual(Named<WantedMetric>& metrics, const Scene& scene) {
       add(metrics, {.quantity = e.quantity, .take = e.take, .at = e.at, .of = e.of}, e.title());
   if (!metrics.empty()) return;
   for (const auto& [name, probe] : scene.output.probes) {
-    if (!is_static) add(metrics, Take::max, name + ".displacement.magnitude");
-    add(metrics, Take::end, name + ".displacement.magnitude");
+    if (!is_static) add(metrics, TimeReduction::max, name + ".displacement.magnitude");
+    add(metrics, TimeReduction::end, name + ".displacement.magnitude");
   }
-  if (metrics.empty()) add(metrics, is_static ? Take::end : Take::max, "energy.elastic");
+  if (metrics.empty()) add(metrics, is_static ? TimeReduction::end : TimeReduction::max, "energy.elastic");
 }
 
 Level level_of(const Convergence& wanted, int order, int level) {
@@ -63,7 +63,7 @@ Level level_of(const Convergence& wanted, int order, int level) {
     const long own = mesh.has("refine") ? mesh.at("refine").integer() : 0;
     config.set("mesh.refine", own + level);
   } else {
-    mesh.fail("has neither cells nor a file, and cannot be refined");
+    mesh.fail("has neither 'cells' nor 'file', so it cannot be refined");
   }
   read_scene(config);
   return {order, level, point_scene(config, fmt::format("order {}, level {}", order, level + 1))};
@@ -76,16 +76,17 @@ Design design_of(const Convergence& wanted) {
   const Scene scene = read_scene(config);
   Design design;
   for (const auto& text : wanted.quantities) add_named(design.metrics, text);
-  if (wanted.quantities.empty() && wanted.modes == 0) add_usual(design.metrics, scene);
+  if (wanted.quantities.empty() && wanted.modes == 0) add_defaults(design.metrics, scene);
   for (int mode = 1; mode <= wanted.modes; ++mode)
     add(design.metrics, {.mode = mode}, fmt::format("frequency of mode {}", mode));
   const BuiltScene built = build(scene);
   for (auto& [name, metric] : design.metrics) {
     if (metric.quantity.empty()) continue;
-    if (scene.is_static() && metric.take != Take::end)
-      metric.origin.fail("a static analysis knows only values in equilibrium: leave out 'max of' and the like");
+    if (scene.is_static() && metric.take != TimeReduction::end)
+      metric.origin.fail("a static analysis has only the value in equilibrium: remove '... of'");
     const Quantity q = find_quantity(metric.quantity, scene, *built.model, metric.origin);
-    if (q.components() > 1 && !(q.is_vector() && metric.take == Take::drift)) metric.origin.fail(q.ask_for_component());
+    if (q.components() > 1 && !(q.is_vector() && metric.take == TimeReduction::drift))
+      metric.origin.fail(q.ask_for_component());
   }
   for (const int order : wanted.orders)
     for (int level = 0; level < wanted.levels; ++level) design.levels.push_back(level_of(wanted, order, level));

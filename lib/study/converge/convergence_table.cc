@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "lib/simulation/run/machine.h"
-#include "lib/study/converge/convergence_answer.h"
 #include "lib/study/converge/richardson.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/jobs/json_values.h"
@@ -16,7 +15,7 @@ namespace orthodyn::study::converge {
 
 namespace {
 
-constexpr double kTarget = 0.01;  // the error whose cost is told
+constexpr double kTarget = 0.01;  // relative error whose cost is reported
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 template <class T>
@@ -53,7 +52,7 @@ class Table {
  private:
   struct Limit {
     Extrapolation value;
-    int order;  // of the elements that it is from
+    int order;  // of the elements used
   };
 
   const EvaluationResult* result(std::size_t level) const {
@@ -66,7 +65,7 @@ class Table {
     return r ? entry(r->metrics, metric).value_or(kNaN) : kNaN;
   }
 
-  // Of one order, up to the first that is missing.
+  // Values of one element order, from coarse to fine, up to the first missing one.
   std::vector<double> values(int order, const std::string& metric) const {
     std::vector<double> out;
     for (std::size_t i = 0; i < design_.levels.size(); ++i) {
@@ -82,7 +81,7 @@ class Table {
     return extrapolate(values, kRatio, 2 * order);
   }
 
-  // By the elements of the highest order, which are nearest to it on equal cells; the orders ascend.
+  // The limit for the highest element order that has one, because that order is the most accurate on equal cells.
   std::optional<Limit> limit(const std::string& metric) const {
     std::optional<Limit> found;
     for (const int order : wanted_.orders)
@@ -101,15 +100,17 @@ class Table {
     return r && r->*cost ? (r->*cost)->cpu_seconds : kNaN;
   }
 
-  // Of a frequency or a buckling load its own, of others the share of the elastic energy.
+  // A natural frequency has its own error estimate, and a buckling load has none (NaN). Other metrics use the relative
+  // error of the elastic energy.
   double mesh_error(std::size_t level, const WantedMetric& metric, const std::string& name) const {
     const EvaluationResult* r = result(level);
     if (!r) return kNaN;
     return metric.is_of_motion() ? r->mesh_error.value_or(kNaN) : entry(r->metric_errors, name).value_or(kNaN);
   }
 
-  // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; at
-  // most that of the coarsest mesh where it is below already; null if there is none.
+  // CPU time (s) for which the error of one element order is kTarget, by log-log interpolation between the enclosing
+  // meshes. If the coarsest mesh already reaches the target, its time is an upper bound (`at_most`). The time is null
+  // if no mesh reaches the target.
   Json cost_of_target(int order, const std::string& name, const WantedMetric& metric) const {
     std::optional<std::size_t> before;
     for (std::size_t i = 0; i < design_.levels.size(); ++i) {
@@ -152,16 +153,16 @@ class Table {
 
   std::string why_no_limit(const std::string& metric) const {
     const std::vector<double> last = values(wanted_.orders.back(), metric);
-    if (last.size() < 3 && wanted_.levels < 3) return "it takes three levels to see one (--levels 3)";
-    if (last.size() < 3) return fmt::format("only {} of its meshes came to an end", last.size());
+    if (last.size() < 3 && wanted_.levels < 3) return "a limit needs three levels (--levels 3)";
+    if (last.size() < 3) return fmt::format("only {} of its meshes completed", last.size());
     const auto* at = last.data() + last.size() - 3;
     return fmt::format(
-        "{:.4g}, {:.4g}, {:.4g} on the last three meshes do not approach one: refine further, or look "
-        "for what has none, such as the stress at a corner",
+        "{:.4g}, {:.4g}, {:.4g} on the last three meshes do not converge: refine further, or check whether the metric "
+        "has a limit at all (the stress at a corner has none)",
         at[0], at[1], at[2]);
   }
 
-  // Of the highest order: the value of its finest mesh, and the estimate of that mesh's error.
+  // The finest mesh of the highest element order that has a value.
   std::optional<FinestMesh> finest(const std::string& name) const {
     for (std::size_t i = design_.levels.size(); i-- > 0;)
       if (const double v = value(i, name); std::isfinite(v))
@@ -169,7 +170,7 @@ class Table {
     return std::nullopt;
   }
 
-  // On the level's own value and the two before it.
+  // Observed on the values of this level and the two before it; null if there is no such order.
   Json observed_order(std::size_t level, const std::string& metric) const {
     if (design_.levels[level].level < 2) return nullptr;
     const auto found = extrapolate({value(level - 2, metric), value(level - 1, metric), value(level, metric)}, kRatio,
@@ -189,8 +190,8 @@ class Table {
                                      : "completed"},
              {"reason", r && r->failure ? r->failure->reason : ""},
              {"message", r && r->failure ? r->failure->message : ""}};
-    out["unknowns"] = r && r->unknowns ? Json(*r->unknowns) : Json();
-    out["elements"] = r && r->elements ? Json(*r->elements) : Json();
+    out["unknowns"] = r && r->model ? Json(r->model->unknowns) : Json();
+    out["elements"] = r && r->model ? Json(r->model->elements) : Json();
     Json metrics = Json::object();
     for (const auto& [name, metric] : design_.metrics)
       metrics[name] = {{"value", finite_or_null(value(i, name))},

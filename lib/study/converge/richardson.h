@@ -1,5 +1,5 @@
-// The limit of values on meshes that are refined by one ratio, from the last of them (Richardson; Roache 1998,
-// Verification and Validation in Computational Science and Engineering, ch. 5).
+// Richardson extrapolation of values on successively refined meshes (Roache 1998, Verification and Validation in
+// Computational Science and Engineering, ch. 5).
 #pragma once
 
 #include <optional>
@@ -9,13 +9,14 @@ namespace orthodyn::study::converge {
 
 struct Extrapolation {
   double limit = 0;
-  double uncertainty = 0;       // of the limit, absolute: 1.25 times its distance from the finest value
-  std::optional<double> order;  // observed on the last three values; none of values that are the same
+  double uncertainty = 0;       // absolute: 1.25 |limit - finest value|; the range of the last three if they are equal
+  std::optional<double> order;  // observed on the last three values; empty if they are equal
 };
 
-// `values` from coarse to fine, each mesh `ratio` times as fine as the one before. The observed order is taken from 1/2
-// to `highest`. None for fewer than three values, and for values whose last two steps do not show an order of at least
-// 1/2: they may be far from any limit, or have none.
+// Extrapolates the last three of `values`, which are ordered from coarse to fine; each mesh is `ratio` times finer than
+// the one before. An observed order above `highest` is replaced by `highest` for the limit. Empty for fewer than three
+// values and for values that may have no limit: differences that do not decrease or that change sign, or an observed
+// order below 1/2.
 std::optional<Extrapolation> extrapolate(const std::vector<double>& values, double ratio, double highest);
 
 }  // namespace orthodyn::study::converge

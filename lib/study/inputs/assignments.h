@@ -1,4 +1,4 @@
-// Changes to a scene, as a study's file gives them: values of the scene's keys by path.
+// Changes to a scene in a study's file: values of scene keys by path.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace orthodyn {
 
-// YAML that is handed on as it stands: a value for a key of a scene.
+// YAML text passed on unchanged as the value of a scene key.
 struct YamlText {
   std::string text;
   SourceLocation origin = {};
@@ -20,14 +20,18 @@ struct Value<YamlText> {
   static std::string yaml(const YamlText& x) { return x.text; }
 };
 
-// Values of a scene by path, and where they come from: the place of what is wrong with them.
+// Values by path in the scene, with their places for error messages.
 using Assignments = Named<YamlText>;
 
-// The value as a node that can be read. Throws ConfigError for what is no YAML.
-Config parsed(const YamlText& value);
+// Parses the text. Throws ConfigError if it is not YAML.
+inline Config parsed(const YamlText& value) { return Config::from_text("v: " + value.text).at("v"); }
 
-// Sets one key, or all in their order: the last value of a key holds. Missing sections are made. Throws ConfigError.
-void assign(Config& scene, const std::string& path, const YamlText& value);
-void assign(Config& scene, const Assignments& assignments);
+// Set one key of a scene, or several in order. Missing sections are created. Throw ConfigError.
+inline void assign(Config& scene, const std::string& path, const YamlText& value) {
+  scene.set_yaml(path, value.text, value.origin.where);
+}
+inline void assign(Config& scene, const Assignments& assignments) {
+  for (const auto& [path, value] : assignments) assign(scene, path, value);
+}
 
 }  // namespace orthodyn

@@ -20,7 +20,7 @@ void require_known_integrator(const Config& c, const std::string& type) {
 
 // {type, label, any option of the integrator}
 IntegratorEntry read_section(const Config& c) {
-  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
+  if (!c.has("type")) c.fail("key 'type' is missing: give the integrator's name");
   IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}, false};
   require_known_integrator(c.at("type"), entry.type);
   entry.label = c.has("label") ? c.at("label").text() : entry.type;
@@ -29,7 +29,7 @@ IntegratorEntry read_section(const Config& c) {
   return entry;
 }
 
-// The sections of the registry's integrators, without what the study varies, and with a label.
+// Schemas of the registered integrators: without `rtol` and `step`, which the study varies, and with `label` added.
 std::map<std::string, Alternative> sections() {
   std::map<std::string, Alternative> out;
   for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {

@@ -1,4 +1,4 @@
-// An integrator in the list of a study's file: a name, `all`, or a section {type, label, any option of the integrator}.
+// An integrator in a study's file: a name, `all`, or a section {type, label, any option of the integrator}.
 #pragma once
 
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace orthodyn {
 
-// Without what controls its error, which the study varies.
+// An entry without `rtol`, `step` and `safety`, which the study sets.
 struct IntegratorEntry {
   std::string type, label;
-  Assignments options;  // by key of the integrator
+  Assignments options;  // of the integrator, by key
   SourceLocation origin;
-  bool by_all = false;  // named by `all`: left out if it takes nothing that the comparison gives
+  bool by_all = false;  // made from `all`: skipped if the comparison has no values for its error control
 };
 
-// A section with all options, those that control the error among them.
+// A section with any option, including `rtol`, `step` and `safety`.
 struct CompleteIntegratorEntry : IntegratorEntry {};
 
-// With `all` replaced by one entry for each of the registry.
+// Replaces `all` by one entry per registered integrator.
 std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries);
 
-// Whether an integrator of the registry has an option.
+// True if `integrator`, which must be registered, has the option `key`.
 bool has_key(const std::string& integrator, const std::string& key);
 
 template <>

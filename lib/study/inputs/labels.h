@@ -1,4 +1,4 @@
-// Names of the entries of a study's lists.
+// Labels of the entries in a study's lists.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,15 @@
 
 namespace orthodyn {
 
-// The name of a study or a scene without one of its own: its file's, without folder and ending.
+// File name without folder and extension: the default name of a study or scene.
 inline std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
-// Throws ConfigError at the second of two entries with the same label. An entry has `label` and `origin`.
+// Throws ConfigError at the second of two entries with the same `label`. Entries have `label` and `origin`.
 template <class Entry>
 void refuse_equal_labels(const std::vector<Entry>& entries) {
   for (auto a = entries.begin(); a != entries.end(); ++a)
     if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
-      a->origin.fail("'" + a->label + "' occurs twice here; give one of them a different 'label'");
+      a->origin.fail("'" + a->label + "' is used twice; give one of the two a different 'label'");
 }
 
 }  // namespace orthodyn

@@ -4,31 +4,16 @@
 #include <iterator>
 #include <sstream>
 
-#include "lib/simulation/run/input_kind.h"
-#include "lib/study/inputs/labels.h"
+#include "lib/simulation/run/scene_file.h"
 
 namespace orthodyn {
 
 const Spec<SceneEntry>& SceneEntry::spec() {
   static const auto s = Spec<SceneEntry>()
-                            .key("file", &SceneEntry::file, "A scene.", {.required = true})
-                            .key("label", &SceneEntry::label, "Its name in the report; default the file's.")
-                            .key("set", &SceneEntry::set, "Changes by path: {mesh.cells: [45, 9, 9]}.");
+                            .key("file", &SceneEntry::file, "Scene file.", {.required = true})
+                            .key("label", &SceneEntry::label, "Name in the report; default the file's name.")
+                            .key("set", &SceneEntry::set, "Changes of the scene by path: {mesh.cells: [45, 9, 9]}.");
   return s;
-}
-
-ValueSchema Value<SceneEntry>::schema() {
-  const ValueSchema section{
-      .kind = ValueSchema::Kind::section, .title = "SceneEntry", .keys = [] { return SceneEntry::spec().keys(); }};
-  return {.kind = ValueSchema::Kind::either, .items = {Value<FilePath>::schema(), section}};
-}
-
-SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
-  SceneEntry entry;
-  if (c.is_map()) entry = SceneEntry::spec().read(c);
-  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
-  if (entry.label.empty()) entry.label = stem(entry.file.path);
-  return entry;
 }
 
 std::string read_scene_text(const FilePath& file) {
@@ -46,7 +31,7 @@ std::string head_comment(const std::string& yaml) {
   std::string text;
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
     line.erase(0, line.find_first_not_of("# "));
-    if (line.starts_with("yaml-language-server:")) continue;  // meant for editors
+    if (line.starts_with("yaml-language-server:")) continue;
     if (line.empty()) break;
     text += (text.empty() ? "" : " ") + line;
   }

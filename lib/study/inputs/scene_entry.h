@@ -1,9 +1,10 @@
-// A scene in the list of a study's file: the file's name, or a section with a label and changes.
+// A scene in a study's file: a file name, or a section with a label and changes.
 #pragma once
 
 #include <string>
 
 #include "lib/study/inputs/assignments.h"
+#include "lib/study/inputs/labels.h"
 
 namespace orthodyn {
 
@@ -16,16 +17,34 @@ struct SceneEntry {
   static const Spec<SceneEntry>& spec();
 };
 
-// The text of a scene's file. Throws ConfigError for what is no YAML, and for a file of another kind.
+// Text of a scene file. Throws ConfigError if the file is not YAML or not a scene.
 std::string read_scene_text(const FilePath& file);
 
-// The first paragraph of the first comment of a YAML text, as one line.
+// First paragraph of the comment at the head of a YAML text, as one line.
 std::string head_comment(const std::string& yaml);
+
+// Reads a file name or a section into an Entry, which has `file`, `label` and `origin`. The default label is the file's
+// stem.
+template <class Entry>
+Entry read_file_entry(const Config& c) {
+  Entry entry;
+  if (c.is_map()) entry = Entry::spec().read(c);
+  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
+  if (entry.label.empty()) entry.label = stem(entry.file.path);
+  return entry;
+}
+
+template <class Entry>
+ValueSchema file_entry_schema(const std::string& title) {
+  const ValueSchema section{
+      .kind = ValueSchema::Kind::section, .title = title, .keys = [] { return Entry::spec().keys(); }};
+  return {.kind = ValueSchema::Kind::either, .items = {Value<FilePath>::schema(), section}};
+}
 
 template <>
 struct Value<SceneEntry> {
-  static ValueSchema schema();
-  static SceneEntry read(const Config& c, const Rule&);
+  static ValueSchema schema() { return file_entry_schema<SceneEntry>("SceneEntry"); }
+  static SceneEntry read(const Config& c, const Rule&) { return read_file_entry<SceneEntry>(c); }
   static std::string yaml(const SceneEntry&) { return ""; }
 };
 

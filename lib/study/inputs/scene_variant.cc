@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kIntegrator = "integrator";
 
-// Options of the scene's own integrator that are kept and that the new one has too.
+// Options of the scene's integrator that `kept` accepts and that the new integrator also has.
 Assignments own_options(const Config& scene, const std::string& integrator,
                         const std::function<bool(const std::string&)>& kept) {
   Assignments out;

@@ -1,4 +1,4 @@
-// A scene with changes, and with an integrator that a study chooses.
+// A scene with changes, and the scene that results when a study chooses the integrator.
 #pragma once
 
 #include <functional>
@@ -8,14 +8,13 @@
 
 namespace orthodyn {
 
-// A scene with its physics fixed.
 struct SceneVariant {
-  std::string file, text;  // read once: a scene that is edited meanwhile is another one
+  std::string file, text;  // path and content; the file is read once, so later edits have no effect
   Assignments set;
 };
 
-// The scene with an integrator of these options, not read yet: of the scene's own options those that `kept` names stay
-// where the integrator has such keys. Throws ConfigError.
+// The scene with the given integrator and options. Options of the scene's own integrator stay if `kept` accepts them
+// and the new integrator has the key. Throws ConfigError; the scene itself is not validated.
 Config with_integrator(const SceneVariant& variant, const std::string& integrator, const Assignments& options,
                        const std::function<bool(const std::string&)>& kept);
 

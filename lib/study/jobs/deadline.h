@@ -1,4 +1,5 @@
-// Ends a run that takes too long, after the step in progress: run() looks at `over` as its interrupt.
+// Wall time limit of a run: `over` becomes true at the first step or output after the limit. Pass `over` to run() as
+// its interrupt.
 #pragma once
 
 #include <atomic>
@@ -10,17 +11,17 @@ namespace orthodyn::study {
 
 class Deadline : public Observer {
  public:
-  // `seconds` of wall time from now on.
+  // `seconds`: wall time from now.
   explicit Deadline(double seconds)
       : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
-  void on_step(const StepInfo&, const ObservedState&, const Integrator&) override { look(); }
-  void on_output(const ObservedState&) override { look(); }  // the steps of a static analysis
+  void on_step(const StepInfo&, const ObservedState&, const Integrator&) override { check(); }
+  void on_output(const ObservedState&) override { check(); }  // load steps are outputs
 
   std::atomic<bool> over{false};
 
  private:
   using Clock = std::chrono::steady_clock;
-  void look() {
+  void check() {
     if (Clock::now() > end_) over = true;
   }
   Clock::time_point end_;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "lib/core/errors.h"
+#include "lib/scene/mesh_materials.h"
+#include "lib/scene/scene.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/machine.h"
@@ -21,8 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Its last error, else what mpirun says first, between lines of dashes, else its last line.
-std::string last_words(const fs::path& file) {
+// The last error in a log, otherwise the first line of an mpirun message (between lines of dashes), otherwise the last
+// line.
+std::string last_error(const fs::path& file) {
   std::ifstream in(file);
   std::string last, error, of_mpirun;
   bool is_after_dashes = false;
@@ -37,10 +40,10 @@ std::string last_words(const fs::path& file) {
 }
 
 Failure failure_of_process(const ProcessEnd& end, const fs::path& log) {
-  if (end.kind == ProcessEnd::Kind::timed_out) return {kTimeLimit, "killed after the limit of the wall time"};
+  if (end.kind == ProcessEnd::Kind::timed_out) return {kTimeLimit, "killed at the wall time limit"};
   if (end.kind == ProcessEnd::Kind::out_of_memory)
-    return {reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory"};
-  const std::string last = last_words(log);
+    return {reason_name(Reason::out_of_memory), "killed above the memory limit"};
+  const std::string last = last_error(log);
   const std::string how = end.kind == ProcessEnd::Kind::signalled
                               ? fmt::format("ended by signal {} ({})", end.code, strsignal(end.code))
                               : fmt::format("ended with code {}", end.code);
@@ -55,11 +58,19 @@ Json result_of(const std::function<Json()>& work) {
   } catch (const RunError& e) {
     return to_json(Failure{reason_name(e.reason()), e.what()});
   } catch (const std::bad_alloc&) {
-    return to_json(Failure{reason_name(Reason::out_of_memory), "the scene does not fit into the limit of memory"});
+    return to_json(Failure{reason_name(Reason::out_of_memory), "the scene needs more memory than its limit"});
   }
 }
 
 }  // namespace
+
+std::string mesh_hash(const Config& scene) {
+  try {
+    return mesh_fingerprint(load_mesh(read_scene(scene)));
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+}
 
 Json run_job(const std::vector<std::string>& program, const Job& job, const Stop& stop) {
   const fs::path result_file = job.folder / kResultFile, log = job.folder / "log.txt";
@@ -82,7 +93,7 @@ void serve_job(const fs::path& folder, const std::function<Json(const Json&)>& w
   std::ifstream in(folder / kInputFile);
   const Json input = Json::parse(in);
   if (input.at("code") != code_fingerprint())
-    throw RunError("the program has changed since this was started; start it again");
+    throw RunError("the program has changed since this study was started; start the study again");
   Json result = result_of([&] { return work(input); });
   const auto failure = failure_from(result);
   if (failure && failed_alone(ranks)) throw std::runtime_error(failure->message);

@@ -1,5 +1,5 @@
-// A piece of work in a process of its own: a folder with its input, in which `PROGRAM COMMAND FOLDER` leaves
-// result.json.
+// A job: work done in its own process. The job's folder holds the input; `PROGRAM COMMAND FOLDER` writes result.json
+// there.
 #pragma once
 
 #include <filesystem>
@@ -7,41 +7,48 @@
 #include <string>
 #include <vector>
 
+#include "lib/config/config.h"
 #include "lib/core/ranks.h"
 #include "lib/simulation/output/json.h"
 #include "lib/study/jobs/process.h"
 
 namespace orthodyn::study {
 
-// The files of a job's folder.
+// Files in a job's folder.
 inline constexpr const char* kSceneFile = "scene.yaml";
 inline constexpr const char* kInputFile = "job.json";
 inline constexpr const char* kResultFile = "result.json";
 
-// A process is killed when it has had the time of its runs and this much more for the set-up, s.
+// Wall time (s) that a job may take in addition to its runs, for the set-up.
 inline constexpr double kSetUpSeconds = 60;
 
 struct Job {
-  std::string title;    // "damped_beam, cvode_bdf, rtol 1e-3"
+  std::string title;    // "damped_beam, cvode_bdf, rtol 0.001"
   std::string command;  // "measure"
   std::filesystem::path folder;
-  std::string scene;  // scene.yaml, in YAML
-  Json input;         // job.json
+  std::string scene;  // content of scene.yaml
+  Json input;         // content of job.json
   ProcessLimits limits;
-  // Whether the files that a result speaks of are whole, too. Empty: a result is all that a job leaves.
+  // True if the other files of the result are complete. Empty if result.json is the only file.
   std::function<bool(const Json& result)> is_whole = {};
 };
 
-// Has PROGRAM... COMMAND FOLDER do a job, whatever an earlier run has left. A process that died or reached a limit is a
-// result, too (see job_result.h). Null if `stop` said so. Throws RunError if files cannot be written or no process can
-// be started. Thread-safe for jobs of different folders; the thread must outlive its process, which dies with it.
+// Runs `PROGRAM... COMMAND FOLDER`, replacing an earlier result. If the process crashes or reaches a limit, the result
+// is a failure (see job_result.h). Returns null if `stop` returned true. Throws RunError if files cannot be written or
+// no process can be started. Thread-safe for jobs in different folders. The process is killed if the calling thread
+// ends.
 Json run_job(const std::vector<std::string>& program, const Job& job, const Stop& stop);
 
-// The other end, called by the process of COMMAND: reads job.json, does `work` and leaves its result in result.json
-// with the time of day, "at". What goes wrong in the scene or in the run is a result; a ConfigError has the reason
-// "refused". Throws RunError if that cannot be written, or if the program is another one than that which made the job.
-// `ranks`: those that do it together, all of which call this; null for this process alone. One that fails alone throws.
+// Does the job in `folder`; called in the process of COMMAND. Reads job.json, calls `work`, and writes its result and
+// the time, as "at", to result.json. Errors of the scene or of the run become failed results; the reason of a
+// ConfigError is "refused". Throws RunError if the result cannot be written or the job was made by another version of
+// the program. `ranks`: the processes that share the job; each must call this function. Null for one process. Throws
+// std::runtime_error if this rank fails alone.
 void serve_job(const std::filesystem::path& folder, const std::function<Json(const Json& input)>& work,
                const Ranks* ranks = nullptr);
+
+// Fingerprint of a scene's mesh, with all files that the mesh file refers to (.ele beside .node, the includes of a
+// .veg). If the mesh cannot be loaded, returns the error message; the job itself then reports the error.
+std::string mesh_hash(const Config& scene);
 
 }  // namespace orthodyn::study

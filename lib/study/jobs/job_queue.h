@@ -1,5 +1,5 @@
-// The jobs of a study, several at a time. What is finished is on disk, in a folder whose name is the fingerprint of the
-// job's input, and is not done again. Jobs that need the results of others are a further stage: another call of run().
+// Runs the jobs of a study, several at a time. Results are kept on disk, in folders named by the fingerprint of the
+// job's input, and are not computed again. Jobs that depend on the results of others go into a later call of run().
 #pragma once
 
 #include <atomic>
@@ -12,28 +12,29 @@
 
 namespace orthodyn::study {
 
-// What those who wait for jobs see, by the job's index.
+// Functions called with the index of a job. `cached`: the result was on disk, or comes from an earlier job with the
+// same folder; such jobs do not start.
 struct JobEvents {
   std::function<void(std::size_t)> starts = [](std::size_t) {};
-  std::function<void(std::size_t, const Json& result, bool cached)> ends;  // cached: it was done before
+  std::function<void(std::size_t, const Json& result, bool cached)> ends;
 };
 
 class JobQueue {
  public:
   struct Options {
     std::vector<std::string> program;  // started as `PROGRAM... COMMAND FOLDER`
-    int workers = 1;                   // processes at a time
+    int workers = 1;                   // concurrent jobs
     OldFailures failures = OldFailures::keep;
-    // Told of what an earlier run has left and is damaged, which is done again.
+    // Called for each damaged result of an earlier run; its job is repeated.
     std::function<void(const std::string& text)> warn = [](const std::string&) {};
   };
 
-  // `interrupt` ends the jobs in progress, without a result; it must outlive the queue.
+  // `interrupt` kills the jobs in progress, which then have no result. It must outlive the queue.
   JobQueue(Options options, const std::atomic<bool>& interrupt) : options_(std::move(options)), interrupt_(interrupt) {}
 
-  // Runs a stage: the jobs begin in their order, and all that begin have ended when it returns. Jobs that share a
-  // folder are one piece of work, done once. Events come one after the other, in no order. False if interrupted. Throws
-  // what an event or run_job() throws; the jobs in progress are given up then.
+  // Starts the jobs in order and waits for all of them. Jobs with the same folder are run once. Events come one at a
+  // time but in any order. Returns false if interrupted. If an event or run_job() throws, stops the jobs in progress
+  // and rethrows the exception.
   bool run(const std::vector<Job>& jobs, const JobEvents& events) const;
 
  private:

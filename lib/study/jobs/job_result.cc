@@ -14,11 +14,11 @@ namespace orthodyn::study {
 
 namespace {
 
-constexpr const char* kSeal = "fingerprint";
+constexpr const char* kFingerprintKey = "fingerprint";
 
 bool is(const std::optional<Failure>& failure, const char* reason) { return failure && failure->reason == reason; }
 
-// The next time it may go well.
+// True if a repetition may succeed.
 bool is_transient(const std::optional<Failure>& failure) {
   return is(failure, kCrashed) || is(failure, reason_name(Reason::disk));
 }
@@ -29,6 +29,10 @@ Json to_json(const Failure& failure) {
   return {{"status", "failed"}, {"reason", failure.reason}, {"message", failure.message}};
 }
 
+Json status_json(const std::optional<Failure>& failure) {
+  return failure ? to_json(*failure) : Json{{"status", "completed"}};
+}
+
 std::optional<Failure> failure_from(const Json& result) {
   if (member(result, "status") != "failed") return std::nullopt;
   return Failure{result.value("reason", ""), result.value("message", "")};
@@ -37,13 +41,13 @@ std::optional<Failure> failure_from(const Json& result) {
 Failure failure_of(const Outcome& outcome, double seconds) {
   if (outcome.status != Outcome::Status::interrupted) return {reason_name(outcome.reason), outcome.message};
   return {kTimeLimit,
-          fmt::format("reached t = {:.4g} in the {:g} s of wall time that it may take; raise limits.seconds, "
-                      "or ask for less",
-                      outcome.last.t, seconds)};
+          fmt::format(
+              "reached t = {:.4g} s within the wall time limit of {:g} s; raise limits.seconds, or reduce the problem",
+              outcome.last.t, seconds)};
 }
 
 Json with_fingerprint(Json result) {
-  result[kSeal] = Fingerprint().add(to_text(result)).text();
+  result[kFingerprintKey] = Fingerprint().add(to_text(result)).text();
   return result;
 }
 
@@ -53,10 +57,10 @@ void write_result(const std::filesystem::path& folder, const Json& result) {
 
 Json read_result(const std::filesystem::path& folder) {
   Json result = read_json(folder / kResultFile);
-  const Json seal = member(result, kSeal);
-  if (!seal.is_string()) return nullptr;
-  result.erase(kSeal);
-  return seal == Fingerprint().add(to_text(result)).text() ? result : Json(nullptr);
+  const Json fingerprint = member(result, kFingerprintKey);
+  if (!fingerprint.is_string()) return nullptr;
+  result.erase(kFingerprintKey);
+  return fingerprint == Fingerprint().add(to_text(result)).text() ? result : Json(nullptr);
 }
 
 Json finished_result(const Job& job, OldFailures failures) {

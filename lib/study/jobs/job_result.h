@@ -1,5 +1,5 @@
-// What all results of jobs have in common: whether the work was completed, and if not why; and which results are final.
-// A failure is {"status": "failed", "reason", "message"}, everything else is the work's own.
+// The common part of all job results, and the decision which earlier results are final. A failed result is
+// {"status": "failed", "reason", "message"}.
 #pragma once
 
 #include <cstddef>
@@ -12,46 +12,45 @@
 
 namespace orthodyn::study {
 
-// The reasons of failures that are no run's own. Of a run or a process that took too long:
+// Reasons of failures in addition to those of a run (lib/core/errors.h).
 inline constexpr const char* kTimeLimit = "time limit";
-// Of a process that died for no reason of ours.
-inline constexpr const char* kCrashed = "crashed";
-// Of a scene that cannot be run as it is.
-inline constexpr const char* kRefused = "refused";
+inline constexpr const char* kCrashed = "crashed";  // the process died
+inline constexpr const char* kRefused = "refused";  // the scene cannot be run: ConfigError
 
 struct Failure {
-  std::string reason;   // in a word or two, for tables: "time limit"
-  std::string message;  // what, where, what to try
+  std::string reason;  // one or two words for tables: "time limit"
+  std::string message;
 };
 
 Json to_json(const Failure& failure);
-// Nothing for a result that was completed.
+// {"status": "completed"}, or the failure.
+Json status_json(const std::optional<Failure>& failure);
+// Empty if the result was completed.
 std::optional<Failure> failure_from(const Json& result);
 
-// Of a run that did not come to its end; `seconds`: the wall time that it might take.
+// Failure of a run that did not complete. `seconds`: the run's wall time limit.
 Failure failure_of(const Outcome& outcome, double seconds);
 
-// What to do about the failures of an earlier run.
+// Treatment of failures of an earlier run.
 enum class OldFailures { keep, retry };
 
-// A result as it is kept in a job's folder, with a fingerprint of itself: what was damaged or cut short since is none.
+// A result file contains its own fingerprint, so that a damaged or truncated file is noticed.
 Json with_fingerprint(Json result);
 void write_result(const std::filesystem::path& folder, const Json& result);
-Json read_result(const std::filesystem::path& folder);  // null if there is none
+Json read_result(const std::filesystem::path& folder);  // null if missing or damaged
 
-// The result of an earlier run that need not be done again; null if there is none, if it is not whole, or if it is to
-// be tried again: always after a crash or a full disk, whose cause may be gone by now, and every failure if `failures`
-// says so.
+// The result of an earlier run, or null if the job must run. It must run if no result is complete, if the process
+// crashed or the disk was full (the cause may be gone), and after any failure with OldFailures::retry.
 Json finished_result(const Job& job, OldFailures failures = OldFailures::keep);
 
-// What an earlier run has left of a job and has changed since: its result, or its folder for the files that belong to
-// it.
+// The damaged result file of an earlier run, or the job's folder if another file of the result is damaged; empty if
+// nothing is damaged.
 std::optional<std::filesystem::path> damaged_file(const Job& job);
 
-// A failure at the limit of time or memory: with more of either, or on another machine, it may get through.
+// True for a failure at the limit of time or memory.
 bool met_a_limit(const std::optional<Failure>& failure);
 
-// How many of the jobs that an earlier run did met a limit, each folder counted once.
+// Number of earlier results that failed at a limit; each folder counts once.
 std::size_t number_at_limits(const std::vector<Job>& jobs);
 
 }  // namespace orthodyn::study

@@ -25,16 +25,8 @@ double number_or_nan(const Json& json) {
   return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-Json numbers_json(const std::vector<double>& numbers) {
-  Json out = Json::array();
-  for (const double x : numbers) out.push_back(finite_or_null(x));
-  return out;
-}
-
-std::vector<double> numbers_from(const Json& json) {
-  std::vector<double> out;
-  for (const auto& x : json) out.push_back(number_or_nan(x));
-  return out;
+std::string csv_heading(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
 }
 
 std::string csv_cell(const Json& value) {

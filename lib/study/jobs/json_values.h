@@ -1,4 +1,4 @@
-// Values of the input and of results as JSON, and files of JSON.
+// Conversions of C++ values to JSON and back, and of JSON to text and CSV.
 #pragma once
 
 #include <cstddef>
@@ -13,36 +13,33 @@
 
 namespace orthodyn {
 
-// Of a file; discarded (no object) if there is none or it is cut short.
+// Content of a file; is_discarded() if the file is missing or is not valid JSON.
 Json read_json(const std::filesystem::path& file);
 
-// As text, whatever bytes a file or a crashed program has put in.
+// JSON as text with a line break at its end. Invalid UTF-8 is replaced, so that any content can be written. `indent`:
+// spaces per level; negative for a single line.
 std::string to_text(const Json& json, int indent = -1);
 
-// The value of a key; null where the object has none, or is none.
+// The value of a key; null if `object` has no such key or is not an object.
 Json member(const Json& object, const std::string& key);
 
-// As a cell of a CSV file: texts in quotes where they need them; nothing for null.
+// CSV cell: text is quoted where necessary, null is empty.
 std::string csv_cell(const Json& value);
 
-// JSON has no word for infinite and undefined numbers: they are null, and NaN when they are read.
+// "deflection [m]"; the name alone without a unit.
+std::string csv_heading(const std::string& name, const std::string& unit);
+
+// JSON has neither infinity nor NaN: both are written as null. Anything but a number is read as NaN.
 Json finite_or_null(double x);
 double number_or_nan(const Json& json);
-Json numbers_json(const std::vector<double>& numbers);
-std::vector<double> numbers_from(const Json& json);
 
-// Null for nothing.
+// The value, or null if `x` is empty.
 template <class T>
 Json optional_json(const std::optional<T>& x) {
   return x ? Json(*x) : Json();
 }
 
-template <class T>
-std::optional<T> optional_from(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional<T>(json.get<T>());
-}
-
-// The value that a word of the input stands for. Throws std::invalid_argument for an unknown one.
+// The enum value with the name `word`. Throws std::invalid_argument for an unknown name.
 template <class E>
 E from_word(const std::string& word) {
   for (const auto& [value, name] : EnumNames<E>::list)

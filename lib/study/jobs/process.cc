@@ -24,14 +24,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPoll = std::chrono::milliseconds(5);
-constexpr int kPollsForFamily = 20;
+constexpr int kPollsPerTreeCheck = 20;
 
-// In the child, between fork and exec: only what is safe there.
-[[noreturn]] void become(char* const* argv, const char* log, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // also when the parent is killed
+// Runs in the child between fork and exec; calls only async-signal-safe functions.
+[[noreturn]] void execute(char* const* argv, const char* log, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the child dies with its parent
   if (getppid() != parent) _exit(127);
-  setpgid(0, 0);  // Ctrl-C goes to the parent alone, which ends the child
-  sigset_t none;  // signals that this program blocks are the child's own
+  setpgid(0, 0);  // Ctrl-C reaches only the parent, which ends the child
+  sigset_t none;  // the child blocks no signals
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
@@ -46,8 +46,8 @@ constexpr int kPollsForFamily = 20;
   _exit(127);
 }
 
-// A process and all that it and its children have started, also those that have left its group, as ranks do.
-std::vector<pid_t> family(pid_t process) {
+// A process and all its descendants, including MPI ranks, which leave the process group.
+std::vector<pid_t> process_tree(pid_t process) {
   namespace fs = std::filesystem;
   std::vector<pid_t> all{process};
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -61,7 +61,7 @@ std::vector<pid_t> family(pid_t process) {
   return all;
 }
 
-// Resident memory. Limiting the addresses instead (RLIMIT_AS) has OpenBLAS wait for memory for ever.
+// Resident memory, bytes. A limit of the address space (RLIMIT_AS) would make OpenBLAS hang.
 double memory_in_use(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/statm");
   double addresses = 0, resident = 0;
@@ -69,9 +69,9 @@ double memory_in_use(pid_t process) {
   return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-// Of a process and what it has started; pages that several have in common count once.
-double memory_of_family(pid_t process) {
-  const std::vector<pid_t> all = family(process);
+// Memory of a process and its descendants, bytes; shared pages count once.
+double memory_of_tree(pid_t process) {
+  const std::vector<pid_t> all = process_tree(process);
   if (all.size() == 1) return memory_in_use(process);
   double sum = 0;
   for (const pid_t one : all) {
@@ -88,23 +88,23 @@ ProcessEnd ended(int status) {
 }
 
 void kill_and_reap(pid_t child) {
-  kill(child, SIGSTOP);  // it starts no more
-  std::vector<pid_t> all = family(child);
+  kill(child, SIGSTOP);  // prevents new children
+  std::vector<pid_t> all = process_tree(child);
   for (auto process = all.rbegin(); process != all.rend(); ++process) kill(*process, SIGKILL);
   kill(-child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
 }
 
-// A process that this one waits for: without it, it ends with all that it has started.
-class Running {
+// Kills a child process and its descendants on destruction, unless it has ended.
+class ChildProcess {
  public:
-  explicit Running(pid_t process) : process_(process) {}
-  ~Running() {
+  explicit ChildProcess(pid_t process) : process_(process) {}
+  ~ChildProcess() {
     if (process_ > 0) kill_and_reap(process_);
   }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
   void has_ended() { process_ = 0; }
 
  private:
@@ -121,9 +121,9 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) throw RunError(std::string("cannot start a process: ") + std::strerror(errno));
-  if (child == 0) become(arguments.data(), log.c_str(), parent);
-  Running process(child);
-  setpgid(child, child);  // whoever of the two comes first
+  if (child == 0) execute(arguments.data(), log.c_str(), parent);
+  ChildProcess process(child);
+  setpgid(child, child);  // as in execute(): either process may run first
 
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
@@ -136,7 +136,7 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
     if (is_lost) throw RunError(std::string("a process was lost: ") + std::strerror(errno));
     if (stop()) return {ProcessEnd::Kind::interrupted, 0};
     if (Clock::now() > end) return {ProcessEnd::Kind::timed_out, 0};
-    const double memory = poll % kPollsForFamily == 0 ? memory_of_family(child) : memory_in_use(child);
+    const double memory = poll % kPollsPerTreeCheck == 0 ? memory_of_tree(child) : memory_in_use(child);
     if (memory > limits.memory) return {ProcessEnd::Kind::out_of_memory, 0};
     std::this_thread::sleep_for(kPoll);
   }

@@ -1,4 +1,4 @@
-// A program run as a child process, with limits of time and memory that it cannot ignore.
+// Runs a program as a child process with enforced limits of time and memory.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 namespace orthodyn {
 
 struct ProcessLimits {
-  double seconds = 0;  // of wall time, then it is killed
-  double memory = 0;   // bytes in use, by all that it has started on this machine as well; then it is killed
+  double seconds = 0;  // wall time
+  double memory = 0;   // resident bytes of the process and its descendants on this machine
 };
 
 struct ProcessEnd {
@@ -20,11 +20,11 @@ struct ProcessEnd {
   bool succeeded() const { return kind == Kind::exited && code == 0; }
 };
 
-// Whether what is in progress is to be given up; asked every few milliseconds.
+// True to kill the process; called every few milliseconds.
 using Stop = std::function<bool()>;
 
-// Runs argv[0] with its output going to `log`, and waits. When `stop` says so the child and all that it has started
-// are killed. It dies with this process, too. Throws RunError if it cannot be started.
+// Runs argv[0] with its output going to `log`, and waits. Kills the child and its descendants at a limit or when `stop`
+// returns true. The kernel kills the child if the calling thread ends. Throws RunError if no process can be started.
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
                        const ProcessLimits& limits, const Stop& stop);
 

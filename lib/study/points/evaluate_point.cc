@@ -1,12 +1,11 @@
-#include "lib/study/points/evaluate_point.h"
-
+// Evaluates one point: computes the metrics of its scene.
 #include <algorithm>
 #include <chrono>
 
 #include "lib/analysis/buckling.h"
 #include "lib/scene/quantity.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
-#include "lib/simulation/error_estimate/snapshot.h"
+#include "lib/simulation/error_estimate/recorders.h"
 #include "lib/simulation/output/frames.h"
 #include "lib/simulation/run/machine.h"
 #include "lib/simulation/run/model_summary.h"
@@ -16,7 +15,8 @@
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
-#include "lib/study/quantities/metric.h"
+#include "lib/study/points/evaluation.h"
+#include "lib/study/quantities/series.h"
 #include "lib/study/quantities/wanted_modes.h"
 
 namespace orthodyn::study {
@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kStatesOfMeshError = 8;
+constexpr int kMeshErrorStates = 8;
 
-// The metrics of a quantity's course, side by side.
+// The requested metrics of quantities; the three lists have the same order.
 struct WantedQuantities {
   std::vector<const std::pair<std::string, WantedMetric>*> metrics;
   std::vector<Expectation> expectations;
@@ -37,26 +37,36 @@ struct WantedQuantities {
 WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& setup) {
   WantedQuantities wanted;
   for (const auto& metric : input.metrics) {
-    const WantedMetric& f = metric.second;
-    if (f.quantity.empty()) continue;
+    const WantedMetric& m = metric.second;
+    if (m.quantity.empty()) continue;
     wanted.metrics.push_back(&metric);
     Expectation& e = wanted.expectations.emplace_back();
-    e.quantity = f.quantity, e.take = f.take, e.at = f.at, e.of = f.of;
-    wanted.quantities.push_back(find_quantity(f.quantity, setup.scene, *setup.built.model, f.origin));
+    e.quantity = m.quantity, e.take = m.take, e.at = m.at, e.of = m.of;
+    wanted.quantities.push_back(find_quantity(m.quantity, setup.scene, *setup.built.model, m.origin));
   }
   return wanted;
 }
 
-// The mesh's error is a diagnostic: what it takes is no cost of the motion.
+// CPU and wall time since its construction, s.
+class Stopwatch {
+ public:
+  double cpu() const { return cpu_seconds_now() - cpu_; }
+  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+ private:
+  double cpu_ = cpu_seconds_now();
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+// Measures its own time, because the estimate is not part of a point's cost.
 class TimedMeshError : public MeshErrorRecorder {
  public:
   using MeshErrorRecorder::MeshErrorRecorder;
   void on_output(const ObservedState& observed) override {
-    const auto begin = std::chrono::steady_clock::now();
-    const double cpu = cpu_seconds_now();
+    const Stopwatch watch;
     MeshErrorRecorder::on_output(observed);
-    cpu_seconds += cpu_seconds_now() - cpu;
-    wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cpu_seconds += watch.cpu();
+    wall_seconds += watch.wall();
   }
   double cpu_seconds = 0, wall_seconds = 0;
 };
@@ -67,8 +77,8 @@ class Evaluation {
       : config_(scene), input_(input), folder_(folder), ranks_(ranks) {}
 
   EvaluationResult result() {
-    if (wants([](const WantedMetric& f) { return !f.is_of_motion(); })) find_modes();
-    if (input_.frame || wants([](const WantedMetric& f) { return f.is_of_motion(); })) follow_motion();
+    if (wants([](const WantedMetric& m) { return !m.is_of_motion(); })) find_modes();
+    if (input_.frame || wants([](const WantedMetric& m) { return m.is_of_motion(); })) follow_motion();
     return std::move(result_);
   }
 
@@ -76,7 +86,7 @@ class Evaluation {
   template <class Condition>
   bool wants(const Condition& condition) const {
     return std::any_of(input_.metrics.begin(), input_.metrics.end(),
-                       [&](const auto& f) { return condition(f.second); });
+                       [&](const auto& m) { return condition(m.second); });
   }
 
   void keep(const std::string& name, double value, const std::string& unit) {
@@ -89,32 +99,32 @@ class Evaluation {
   }
 
   void describe(const FemModel& model) {
-    result_.unknowns = static_cast<std::size_t>(model.num_dofs_of_all());
-    result_.elements = model.parts().mesh.tets.size();
+    result_.model = {static_cast<std::size_t>(model.num_dofs_of_all()), model.parts().mesh.tets.size()};
   }
 
-  // Modes: nothing of the scene's integrator is set up.
+  // Does not set up the scene's integrator, which modes do not need.
   void find_modes() {
-    if (ranks_) throw ConfigError("natural frequencies and buckling loads are computed by one process: no --ranks");
-    const auto started = std::chrono::steady_clock::now();
-    const double cpu = cpu_seconds_now();
+    if (ranks_) throw ConfigError("natural frequencies and buckling loads are computed by one process: remove --ranks");
+    const Stopwatch watch;
     const Scene scene = read_scene(config_);
     const Scene still = scene.is_static() ? scene : at_rest(scene);
     const BuiltScene built = build(still);
     describe(*built.model);
     for (const bool about_equilibrium : {false, true}) find_modes(still, built, about_equilibrium);
     find_buckling(still, built);
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-    result_.cost = result_.modes_cost =
-        EvaluationCost{cpu_seconds_now() - cpu - diagnostics_cpu_, wall.count() - diagnostics_wall_, {}, peak_memory()};
+    EvaluationCost cost;
+    cost.cpu_seconds = watch.cpu() - diagnostics_cpu_;
+    cost.wall_seconds = watch.wall() - diagnostics_wall_;
+    cost.peak_memory = peak_memory();
+    result_.cost = result_.modes_cost = cost;
   }
 
   void find_modes(const Scene& scene, const BuiltScene& built, bool about_equilibrium) {
     std::vector<std::string> names;
     std::vector<WantedMetric> wanted;
-    for (const auto& [name, f] : input_.metrics)
-      if (!f.is_of_motion() && !f.buckling && f.about_equilibrium == about_equilibrium)
-        names.push_back(name), wanted.push_back(f);
+    for (const auto& [name, m] : input_.metrics)
+      if (!m.is_of_motion() && !m.buckling && m.about_equilibrium == about_equilibrium)
+        names.push_back(name), wanted.push_back(m);
     if (wanted.empty()) return;
     const Vector zero = Vector::Zero(built.model->num_dofs());
     const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero,
@@ -124,43 +134,42 @@ class Evaluation {
       keep(names[k], found.chosen[k] ? found.modes.modes[*found.chosen[k]].frequency() : std::nan(""),
            wanted[k].unit_of(""));
     if (!input_.mesh_error || found.modes.modes.empty()) return;
-    const auto begin = std::chrono::steady_clock::now();
-    const double cpu = cpu_seconds_now();
+    const Stopwatch watch;
     const FrequencyErrors errors = frequency_errors_of(scene, *built.model, about, found.modes);
     for (std::size_t k = 0; k < names.size(); ++k)
       if (found.chosen[k]) result_.metric_errors.emplace_back(names[k], errors.shares[*found.chosen[k]]);
-    if (!errors.blind.empty()) result_.warnings.push_back(blindness_warning(errors.blind));
-    diagnostics_cpu_ += cpu_seconds_now() - cpu;
-    diagnostics_wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!errors.locking_risk.empty()) result_.warnings.push_back(locking_warning(errors.locking_risk));
+    diagnostics_cpu_ += watch.cpu();
+    diagnostics_wall_ += watch.wall();
   }
 
   void find_buckling(const Scene& scene, const BuiltScene& built) {
     int count = 0;
-    for (const auto& [name, f] : input_.metrics) count = std::max(count, f.buckling.value_or(0));
+    for (const auto& [name, m] : input_.metrics) count = std::max(count, m.buckling.value_or(0));
     if (count == 0) return;
     require_held(scene, *built.model, scene.time.end);
     const auto modes = buckling_modes(*built.model, unloaded_shape(scene, built), scene.time.end, count).modes;
-    for (const auto& [name, f] : input_.metrics) {
-      if (!f.buckling) continue;
-      const auto k = static_cast<std::size_t>(*f.buckling - 1);
+    for (const auto& [name, m] : input_.metrics) {
+      if (!m.buckling) continue;
+      const auto k = static_cast<std::size_t>(*m.buckling - 1);
       keep(name, k < modes.size() ? modes[k].load_factor : std::nan(""), "");
     }
   }
 
   void follow_motion() {
-    start_again_if_outgrown(config_, [&](const Config& config, const std::string& given_up) {
+    run_with_kinematics_restarts(config_, [&](const Config& config, const std::string& restart_reason) {
       result_.failure.reset();
       Setup setup = set_up(config, false, true, ranks_);
       result_.warnings = setup.built.warnings;
-      if (!given_up.empty()) {
-        setup.note_given_up(given_up);
+      if (!restart_reason.empty()) {
+        setup.note_kinematics_restart(restart_reason);
         given_up_ = *result_.cost;
       }
       follow_motion(setup);
-      if (!setup.kinematics) return std::optional<Outgrown>();
-      const auto outgrown = setup.linearity ? setup.linearity->why_to_start_again() : std::nullopt;
-      if (!outgrown) result_.kinematics = told_kinematics(setup);
-      return outgrown;
+      if (!setup.kinematics) return std::optional<KinematicsRestart>();
+      const auto restart = setup.linearity ? setup.linearity->kinematics_restart() : std::nullopt;
+      if (!restart) result_.kinematics = kinematics_summary(setup);
+      return restart;
     });
   }
 
@@ -169,19 +178,21 @@ class Evaluation {
     const WantedQuantities wanted = wanted_quantities(input_, setup);
     if (setup.scene.is_static()) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
-    if (ranks_) add_up(*result_.cost);
-    if (result_.failure || is_outgrown(setup)) return;
+    if (ranks_) sum_over_ranks(*result_.cost);
+    if (result_.failure || exceeds_allowed_error(setup)) return;
     const Json costs = to_json(*result_.cost);
-    for (const auto& [name, f] : input_.metrics)
-      if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
+    for (const auto& [name, m] : input_.metrics)
+      if (!m.cost.empty()) keep(name, costs.at(m.cost).get<double>(), m.unit_of(""));
   }
 
-  // What all ranks have taken together.
-  void add_up(EvaluationCost& cost) const {
+  // Sums CPU time and memory over all ranks.
+  void sum_over_ranks(EvaluationCost& cost) const {
     for (double* value : {&cost.cpu_seconds, &cost.peak_memory}) *value = ranks_->sum(*value);
   }
 
-  static bool is_outgrown(const Setup& setup) { return setup.linearity && setup.linearity->outgrown(); }
+  static bool exceeds_allowed_error(const Setup& setup) {
+    return setup.linearity && setup.linearity->exceeds_allowed();
+  }
 
   void find_equilibrium(const Setup& setup, const WantedQuantities& wanted) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
@@ -192,18 +203,19 @@ class Evaluation {
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
     if (setup.kinematics && setup.linearity) setup.linearity->finish_at(problem.path->times().end, outcome.last.q);
-    if (is_outgrown(setup)) return;
+    if (exceeds_allowed_error(setup)) return;
     const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q)
       keep(wanted.metrics[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
     MeshErrorRecorder mesh_error(0);
-    if (input_.mesh_error) mesh_error.look_at(observed);
+    if (input_.mesh_error) mesh_error.observe(observed);
     keep(mesh_error);
     if (result_.mesh_error && !ranks_) {
-      const MeshError found = look_closer(setup.scene, *setup.built.model, state, false, *mesh_error.found()).error;
+      const MeshError found =
+          estimate_mesh_error(setup.scene, *setup.built.model, state, false, *mesh_error.found()).error;
       result_.mesh_error = found.relative;
-      if (!found.blind.empty()) result_.warnings.push_back(blindness_warning(found.blind));
+      if (!found.locking_risk.empty()) result_.warnings.push_back(locking_warning(found.locking_risk));
     }
     draw(*setup.built.model, state);
   }
@@ -225,13 +237,13 @@ class Evaluation {
     result_.cost->wall_seconds += setup.wall_seconds - mesh_error.wall_seconds;
     result_.cost->cpu_seconds += setup.cpu_seconds - mesh_error.cpu_seconds;
     if (setup.kinematics && setup.linearity) setup.linearity->finish();
-    if (!completed || is_outgrown(setup)) return;
+    if (!completed || exceeds_allowed_error(setup)) return;
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q) {
-      const auto& [name, f] = *wanted.metrics[q];
+      const auto& [name, m] = *wanted.metrics[q];
       keep(name,
-           f.settled_within ? settling_time(recorder.series(q), *f.settled_within)
+           m.settled_within ? settling_time(recorder.series(q), *m.settled_within)
                             : metric(wanted.expectations[q], recorder, q),
-           f.unit_of(wanted.quantities[q].unit));
+           m.unit_of(wanted.quantities[q].unit));
     }
     keep(mesh_error);
     draw(*setup.built.model, frame.state());
@@ -240,15 +252,18 @@ class Evaluation {
   std::vector<double> output_times(std::vector<Expectation> wanted, const TimeSpan& time) const {
     if (input_.frame && input_.frame_at && *input_.frame_at < time.end) wanted.emplace_back().at = input_.frame_at;
     if (input_.mesh_error)
-      for (int i = 1; i <= kStatesOfMeshError; ++i)
-        wanted.emplace_back().at = time.start + (time.end - time.start) * i / kStatesOfMeshError;
-    return times_asked_for(wanted, time.start);
+      for (int i = 1; i <= kMeshErrorStates; ++i)
+        wanted.emplace_back().at = time.start + (time.end - time.start) * i / kMeshErrorStates;
+    return requested_times(wanted, time.start);
   }
 
-  // False if it did not get to its end, which is then the result.
+  // Stores cost and failure. Returns false if the run did not complete.
   bool conclude(const Outcome& outcome, const Statistics& statistics) {
-    result_.cost = EvaluationCost{given_up_.cpu_seconds + outcome.cpu_seconds,
-                                  given_up_.wall_seconds + outcome.wall_seconds, statistics, peak_memory()};
+    EvaluationCost& cost = result_.cost.emplace();
+    cost.cpu_seconds = given_up_.cpu_seconds + outcome.cpu_seconds;
+    cost.wall_seconds = given_up_.wall_seconds + outcome.wall_seconds;
+    cost.peak_memory = peak_memory();
+    cost.count(statistics);
     require_failure_of_all(ranks_, outcome);
     if (outcome.status != Outcome::Status::completed) result_.failure = failure_of(outcome, input_.seconds);
     return !result_.failure;
@@ -269,8 +284,8 @@ class Evaluation {
   const fs::path& folder_;
   const Ranks* ranks_;
   EvaluationResult result_;
-  double diagnostics_cpu_ = 0, diagnostics_wall_ = 0;  // s, of estimates of errors: no cost of what is computed
-  EvaluationCost given_up_;                            // of earlier attempts, with linear kinematics that were outgrown
+  double diagnostics_cpu_ = 0, diagnostics_wall_ = 0;  // s, of error estimates; not part of the cost
+  EvaluationCost given_up_;  // cost of earlier attempts whose linear kinematics became invalid
 };
 
 }  // namespace

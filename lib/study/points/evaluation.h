@@ -1,58 +1,71 @@
-// What is computed of one point of a sweep or of a refinement: the border, as JSON, between the process that wants it
-// and the one that evaluates.
+// The evaluation of one point of a sweep or of one mesh of a convergence study: its input and its result, exchanged as
+// JSON between the process of the study and the one that computes the point.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "lib/ode/statistics.h"
+#include "lib/config/config.h"
+#include "lib/core/ranks.h"
 #include "lib/study/jobs/job_result.h"
+#include "lib/study/quantities/evaluation_cost.h"
 #include "lib/study/quantities/wanted_metric.h"
 
 namespace orthodyn::study {
 
-// What is to be done.
 struct EvaluationInput {
   Named<WantedMetric> metrics;
-  std::optional<std::string> frame = {};  // the field that its picture shows
-  std::optional<double> frame_at = {};    // s; default the end
-  double seconds = 60;                    // limit of the integration
-  std::string code;                       // fingerprint of the program that is to do it
-  bool mesh_error = false;                // whether to estimate it
+  std::optional<std::string> frame = {};  // the field shown by the point's picture; empty for no picture
+  std::optional<double> frame_at = {};    // time of the picture, s; empty for the end
+  double seconds = 60;                    // wall time limit of the integration, s
+  std::string code;                       // fingerprint of the program that must do the work
+  bool mesh_error = false;                // also estimate the mesh error
 };
 
-// What people read (title, unit, closed form) does not change what is computed, and is left out.
+// Title, unit, closed form and scale of a metric are left out, because they do not affect the computation.
 Json to_json(const EvaluationInput& input);
 EvaluationInput evaluation_input_from(const Json& json);
 
-struct EvaluationCost {
-  double cpu_seconds = 0, wall_seconds = 0;
-  std::optional<Statistics> statistics;  // of a motion or an equilibrium; none of modes alone
-  double peak_memory = 0;                // bytes
+struct EvaluationModel {
+  std::size_t unknowns = 0, elements = 0;
 };
 
-Json to_json(const EvaluationCost& cost);
-
-// What came out: of a failure all that was known by then.
+// Result of an evaluation. After a failure, it holds all that was known by then.
 struct EvaluationResult {
-  std::optional<Failure> failure;                 // else it was completed
-  Named<double> metrics;                          // SI; NaN for one that the point does not have
-  Named<std::string> units;                       // of the metrics
-  std::optional<EvaluationCost> cost;             // of the motion or the equilibrium, or else of modes alone
-  std::optional<EvaluationCost> modes_cost;       // of natural frequencies, where some are wanted
-  std::optional<std::size_t> unknowns, elements;  // of the model
-  std::string frame;                              // the file of the picture's state; "" for none
-  std::optional<double> mesh_error;               // MeshError::relative, of the motion or the equilibrium
-  Named<double> metric_errors;                    // of frequencies and buckling loads: by what share they are too high
-  std::string kinematics;                         // what was taken for `auto`, and why; "" where the scene says which
-  std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
+  std::optional<Failure> failure;      // empty if completed
+  Named<double> metrics;               // SI; NaN for a metric that the point does not have
+  Named<std::string> units;            // SI units of the metrics
+  std::optional<EvaluationCost> cost;  // of the motion or the equilibrium; of the modes if nothing else was computed
+  std::optional<EvaluationCost> modes_cost;  // of natural frequencies and buckling loads
+  std::optional<EvaluationModel> model;
+  std::string frame;                 // file of the picture's state, relative to the point's folder; "" for none
+  std::optional<double> mesh_error;  // MeshError::relative, of the motion or the equilibrium
+  Named<double> metric_errors;       // estimated relative excess of natural frequencies
+  std::string kinematics;            // choice made for `kinematics: auto` and its reason; "" for other kinematics
+  std::vector<std::string> warnings;
 };
 
-// The value of a metric, in any unit, with the digits that its own error by the mesh leaves; six where none is known.
+// `value` of a metric, in any unit, as text. It has the digits that the metric's own mesh error justifies, or six if
+// that error is unknown.
 std::string known_value(const EvaluationResult& result, const std::string& metric, double value);
 
+Json to_json(const EvaluationCost& cost);
 Json to_json(const EvaluationResult& result);
 EvaluationResult evaluation_from(const Json& json);
+
+// File with the state shown by the picture, in the point's folder.
+inline constexpr const char* kFrameFile = "frame.vtu";
+
+// Computes the metrics of a scene and nothing that they do not need. `ranks`: the processes that share the computation;
+// each must call this function. Null for one process. A failed run is a result, not an exception. Throws ConfigError,
+// RunError.
+EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& input, const std::filesystem::path& folder,
+                                const Ranks* ranks = nullptr);
+
+// Does the job in `folder`. Throws as serve_job() does.
+void evaluate_point(const std::filesystem::path& folder, const Ranks* ranks);
 
 }  // namespace orthodyn::study

@@ -4,23 +4,7 @@
 
 #include <utility>
 
-#include "lib/scene/mesh_materials.h"
-#include "lib/scene/scene.h"
-
 namespace orthodyn::study {
-
-namespace {
-
-// With what named files bring along: elements beside .node, files that a .veg includes.
-std::string mesh_hash(const PointScene& point) {
-  try {
-    return mesh_fingerprint(load_mesh(read_scene(Config::from_text(point.scene))));
-  } catch (const ConfigError& e) {
-    return e.what();  // the point itself will say so
-  }
-}
-
-}  // namespace
 
 PointScene point_scene(const Config& scene, const std::string& title) {
   return {title, scene.dump_for(""), scene.at("mesh").yaml(), scene.file_paths()};
@@ -36,7 +20,7 @@ Job PointJobs::job(const PointScene& point) {
   for (const auto& file : point.files) hash.add(files_.of(file));
   if (!point.files.empty()) {
     std::string& mesh = meshes_[point.mesh];
-    if (mesh.empty()) mesh = mesh_hash(point);
+    if (mesh.empty()) mesh = mesh_hash(Config::from_text(point.scene));
     hash.add(mesh);
   }
   return {point.title, "evaluate", folder_ / "points" / hash.text(),

@@ -1,5 +1,6 @@
-// Jobs that evaluate scenes: each in a folder whose name tells what the result depends on: the scene, the files that it
-// names, the metrics, the limits, the program, the number of ranks. Not the machine: points may come from several.
+// Jobs that evaluate scenes. A job's folder is named by the fingerprint of everything that affects its result: scene,
+// files, metrics, limits, program and number of ranks. The machine is left out: points may be computed on several
+// machines.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +15,20 @@
 
 namespace orthodyn::study {
 
-// A scene as it will be computed.
+// A scene with all defaults filled in.
 struct PointScene {
   std::string title;               // "angle 30 deg, mesh fine"
-  std::string scene;               // in YAML, for a reader anywhere
-  std::string mesh;                // its section, with what it names
-  std::vector<std::string> files;  // that it names
+  std::string scene;               // YAML, independent of its folder
+  std::string mesh;                // the section `mesh`
+  std::vector<std::string> files;  // that the scene uses
 };
 
-// Of a resolving() Config that has been read as a scene.
+// Precondition: `scene` is a resolving() Config that read_scene() has read.
 PointScene point_scene(const Config& scene, const std::string& title);
 
 class PointJobs {
  public:
-  // In FOLDER/points. `ranks`: that compute each.
+  // Job folders are in `folder`/points. `ranks`: MPI ranks per point.
   PointJobs(const EvaluationInput& input, const Limits& limits, std::filesystem::path folder, int ranks);
 
   // Throws RunError if a file of the scene cannot be read.
@@ -38,7 +39,7 @@ class PointJobs {
   Limits limits_;
   std::filesystem::path folder_;
   int ranks_;
-  std::map<std::string, std::string> meshes_;  // fingerprints by section
+  std::map<std::string, std::string> meshes_;  // fingerprints by the section `mesh`
   FileFingerprints files_;
 };
 

@@ -1,4 +1,4 @@
-// Results of verification as JUnit XML, which continuous integration systems read.
+// Results of `orthodyn verify` as JUnit XML, for continuous integration.
 #include <fmt/format.h>
 
 #include "lib/study/quantities/verify.h"
@@ -36,7 +36,7 @@ std::string test_case(const CaseResult& result, const Check& check) {
                    escaped("Expected: " + e.source + ". Tolerance: " + e.reason));
 }
 
-std::string unread_case(const CaseResult& result) {
+std::string unreadable_case(const CaseResult& result) {
   return fmt::format(
       "  <testcase classname=\"{}\" name=\"is read\" time=\"0\">\n    <error message=\"{}\"/>\n"
       "  </testcase>\n",
@@ -53,7 +53,7 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
     seconds += result.outcome.wall_seconds;
     if (result.checks.empty()) {
       ++tests, ++errors;
-      body += unread_case(result);
+      body += unreadable_case(result);
     }
     for (const auto& check : result.checks) {
       ++tests;
@@ -63,8 +63,8 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
     }
   }
   return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"orthodyn verify\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n",
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"orthodyn verify\" tests=\"{}\" failures=\"{}\" "
+      "errors=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n",
       tests, failures, errors, seconds, body);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace orthodyn {
 
@@ -16,15 +17,15 @@ struct Vertex {
   double t = kNone, value = kNone;
 };
 
-// Whether the curve bends beside the sample, too, where there are samples: through a corner, such as that of a ramp,
-// goes no parabola. `a` is half the second derivative of that through the sample and its neighbours.
-bool is_round(const Series& s, std::size_t k, double a) {
-  constexpr double kShare = 0.25;         // of the bend in the middle
-  const auto bend = [&](std::size_t i) {  // half the second derivative
+// True if the curvature at each neighbour of sample k is at least a quarter of `a`, the curvature at sample k (both are
+// half the second derivative). This is not so at a corner, such as the end of a ramp, where a parabola would overshoot.
+bool is_smooth(const Series& s, std::size_t k, double a) {
+  constexpr double kFraction = 0.25;
+  const auto curvature = [&](std::size_t i) {  // half the second derivative
     const double h0 = s.times[i] - s.times[i - 1], h1 = s.times[i + 1] - s.times[i];
     return ((s.values[i + 1] - s.values[i]) / h1 - (s.values[i] - s.values[i - 1]) / h0) / (h0 + h1);
   };
-  return (k < 2 || bend(k - 1) / a >= kShare) && (k + 2 >= s.size() || bend(k + 1) / a >= kShare);
+  return (k < 2 || curvature(k - 1) / a >= kFraction) && (k + 2 >= s.size() || curvature(k + 1) / a >= kFraction);
 }
 
 Vertex vertex(const Series& s, double sign) {
@@ -36,30 +37,40 @@ Vertex vertex(const Series& s, double sign) {
   if (k == 0 || k + 1 == s.size()) return sample;
   const double h0 = s.times[k - 1] - s.times[k], h1 = s.times[k + 1] - s.times[k];
   const double y0 = s.values[k - 1] - s.values[k], y1 = s.values[k + 1] - s.values[k];
-  // y = b h + a h^2
+  // Parabola y = b h + a h^2 through the neighbours, with h and y relative to sample k.
   const double a = (y1 / h1 - y0 / h0) / (h1 - h0), b = y0 / h0 - a * h0;
-  if (!(sign * a < 0) || !is_round(s, k, a)) return sample;
+  if (!(sign * a < 0) || !is_smooth(s, k, a)) return sample;
   return {s.times[k] - b / (2 * a), s.values[k] - b * b / (4 * a)};
 }
 
-// The integral of the parabola through the samples k, k + 1, k + 2 from the first to the second of them,
-// by Newton's divided differences.
+// Integral from sample k to k + 1 of the parabola through samples k, k + 1, k + 2 (Newton's divided differences).
 double integral_over_first(const Series& s, std::size_t k) {
   const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
   const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
   return h * (s.values[k] + h * (slope / 2 - (next - slope) / (h + g) * h / 6));
 }
 
-// The same from the second to the third.
+// Integral from sample k + 1 to k + 2 of the same parabola.
 double integral_over_last(const Series& s, std::size_t k) {
   const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
   const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
   return g * (s.values[k + 2] - g * (next / 2 + (next - slope) / (h + g) * g / 6));
 }
 
-bool is_even(const Series& s, std::size_t k) {
+// True if the two intervals after sample k differ by a factor of 4 at most.
+bool has_even_steps(const Series& s, std::size_t k) {
   const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
   return std::max(h, g) <= 4 * std::min(h, g);
+}
+
+// The size to which a drift or gain is relative.
+double reference_size(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  double scale = e.of.value_or(0);
+  if (!e.of && e.quantity == kEnergyBalance) scale = recorder.energy_scale();
+  if (!e.of && e.quantity != kEnergyBalance)
+    for (int c = 0; c < series.components; ++c) scale = std::hypot(scale, series.values[static_cast<std::size_t>(c)]);
+  return scale;  // NaN or 0 if there is none: the metric then fails
 }
 
 }  // namespace
@@ -73,12 +84,13 @@ double mean(const Series& s) {
   if (n < 2) return kNone;
   double sum = 0;
   for (std::size_t k = 0; k + 1 < n; ++k) {
-    // Parabolas through either neighbour, averaged; at the ends there is one. None through samples of very different
-    // distances, which lie beside a jump: it would leave their range by far.
+    // Averages the integrals of two parabolas, which also pass through the sample before or after the interval; the
+    // first and the last interval have only one. A parabola through very uneven samples is left out: they lie at a
+    // jump, where it would overshoot. If none is left, uses the trapezoidal rule.
     double pieces = 0;
     int count = 0;
-    if (k > 0 && is_even(s, k - 1)) pieces += integral_over_last(s, k - 1), ++count;
-    if (k + 2 < n && is_even(s, k)) pieces += integral_over_first(s, k), ++count;
+    if (k > 0 && has_even_steps(s, k - 1)) pieces += integral_over_last(s, k - 1), ++count;
+    if (k + 2 < n && has_even_steps(s, k)) pieces += integral_over_first(s, k), ++count;
     sum += count > 0 ? pieces / count : 0.5 * (s.values[k] + s.values[k + 1]) * (s.times[k + 1] - s.times[k]);
   }
   return sum / (s.times.back() - s.times.front());
@@ -104,7 +116,7 @@ double settling_time(const Series& s, double share) {
   std::size_t k = s.size() - 1;
   while (k > 0 && std::abs(s.values[k - 1] - last) <= band) --k;
   if (k == 0) return 0;
-  // Between the last sample outside and the first inside.
+  // Linear between the last sample outside the band and the first inside.
   const double outside = std::abs(s.values[k - 1] - last), inside = std::abs(s.values[k] - last);
   const double t = s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (outside - band) / (outside - inside);
   return t - start > 0.9 * (s.times.back() - start) ? kNone : t - start;
@@ -155,7 +167,8 @@ void SeriesRecorder::on_start(const ObservedState& observed) {
   record(observed);
 }
 
-// In the order of time with the other samples, as the energy balance needs: see on_step().
+// Output times are sampled in on_step(), together with the other times, because the energy balance needs ascending
+// times.
 void SeriesRecorder::on_output(const ObservedState& observed) { pending_.push_back(observed.t()); }
 
 void SeriesRecorder::on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) {
@@ -196,6 +209,31 @@ std::vector<double> SeriesRecorder::values(std::size_t quantity, const ObservedS
   const auto& q = quantities_[quantity];
   if (!q.values) return {energy_->last().balance()};
   return q.values(observed);
+}
+
+double metric(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  if (e.at) return recorder.at(q, *e.at);
+  switch (e.take) {
+    case TimeReduction::end: return series.values.back();
+    case TimeReduction::max: return maximum(series);
+    case TimeReduction::min: return maximum(series, -1);
+    case TimeReduction::time_of_max: return time_of_maximum(series);
+    case TimeReduction::time_of_min: return time_of_maximum(series, -1);
+    case TimeReduction::mean: return mean(series);
+    case TimeReduction::frequency: return frequency(series);
+    case TimeReduction::drift: return drift(series) / reference_size(e, recorder, q);
+    case TimeReduction::gain: return gain(series) / reference_size(e, recorder, q);
+    case TimeReduction::onset: return e.of ? onset(series, *e.of) : std::nan("");
+  }
+  return 0;
+}
+
+std::vector<double> requested_times(const std::vector<Expectation>& expectations, double start) {
+  std::set<double> times;
+  for (const auto& e : expectations)
+    if (e.at && *e.at > start) times.insert(*e.at);
+  return {times.begin(), times.end()};
 }
 
 }  // namespace orthodyn

@@ -1,15 +1,17 @@
-// Quantities over time, sampled at every step and three times within it.
+// Time series of quantities and their metrics. A series has samples at the end of every step, at three or more evenly
+// spaced times within it, and at the output times.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "lib/scene/expectation.h"
 #include "lib/scene/quantity.h"
 #include "lib/simulation/output/balance.h"
 
 namespace orthodyn {
 
-// One quantity's course: values are `components` apart, fastest.
+// One quantity over time. `values` holds `components` values per time.
 struct Series {
   int components = 1;
   std::vector<double> times, values;
@@ -17,19 +19,22 @@ struct Series {
   std::size_t size() const { return times.size(); }
 };
 
-// Metrics of a scalar series; NaN where it has none.
-double maximum(const Series& series, double sign = 1);  // of sign * value, refined by a parabola
+// Metrics of a scalar series; NaN if the series has no such metric.
+// Largest value, or the smallest with sign = -1, refined by a parabola through the neighbouring samples; and its time,
+// s.
+double maximum(const Series& series, double sign = 1);
 double time_of_maximum(const Series& series, double sign = 1);
 double mean(const Series& series);       // over time
-double frequency(const Series& series);  // from upward crossings of the mean, 1/s
-// The time from the start after which the values stay within `share` of their range about the last one; NaN if
-// that is in the last tenth of the time.
+double frequency(const Series& series);  // Hz, from upward crossings of the mean
+// Time from the start (s) after which the values differ from the last value by at most `share` of their range; NaN if
+// that time is in the last tenth of the time span.
 double settling_time(const Series& series, double share);
-// The largest change from the start, of vectors in the Euclidean norm.
+// Largest change from the start, in the series' unit; the Euclidean norm for vectors.
 double drift(const Series& series);
-// Of scalars. The largest rise above the start, in the series' unit, at least 0.
+// Largest rise of a scalar above the start, in the series' unit, >= 0.
 double gain(const Series& series);
-// The time when the size first passes a level, s, linear between samples; NaN if it never does.
+// Time (s) at which the absolute value first reaches `level`, interpolated linearly between samples; NaN if it never
+// does.
 double onset(const Series& series, double level);
 
 class SeriesRecorder : public Observer {
@@ -40,9 +45,10 @@ class SeriesRecorder : public Observer {
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
   const Series& series(std::size_t quantity) const { return series_[quantity]; }
-  // A scalar quantity at the start or at an output time of the run, but for round-off in the time.
+  // Value of a scalar quantity at the time `t` (s), which must be the start or an output time of the run, up to
+  // round-off.
   double at(std::size_t quantity, double t) const;
-  // The largest kinetic or elastic energy, J, if an energy balance is among the quantities.
+  // Largest kinetic or elastic energy, J; 0 if no energy balance is recorded.
   double energy_scale() const { return energy_ ? energy_->scale() : 0; }
 
  private:
@@ -53,8 +59,14 @@ class SeriesRecorder : public Observer {
   std::vector<Quantity> quantities_;
   std::vector<Series> series_;
   std::vector<double> pending_;          // output times within the step
-  std::unique_ptr<EnergyMeter> energy_;  // only if asked for
+  std::unique_ptr<EnergyMeter> energy_;  // null without an energy balance
   double last_t_ = 0;
 };
+
+// The metric of a recorded quantity that `wanted` names; NaN if the series has no such metric.
+double metric(const Expectation& wanted, const SeriesRecorder& recorder, std::size_t quantity);
+
+// Output times (s) after `start` that the expectations need, ascending.
+std::vector<double> requested_times(const std::vector<Expectation>& wanted, double start);
 
 }  // namespace orthodyn

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lib/analysis/buckling.h"
 #include "lib/core/file_kind.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
-#include "lib/study/quantities/eigenvalue_checks.h"
-#include "lib/study/quantities/metric.h"
+#include "lib/study/quantities/series.h"
+#include "lib/study/quantities/wanted_modes.h"
 
 namespace orthodyn::study {
 
@@ -18,15 +19,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Expectations of quantities, in their order, and the quantities.
-struct Wanted {
+// The expectations of quantities, and their quantities in the same order.
+struct ExpectedQuantities {
   std::vector<Expectation> expectations;
   std::vector<Quantity> quantities;
 };
 
-Wanted wanted_quantities(const Setup& setup) {
+ExpectedQuantities expected_quantities(const Setup& setup) {
   const SourceLocation origin{setup.config.where()};
-  Wanted wanted;
+  ExpectedQuantities wanted;
   for (const auto& e : setup.scene.expect) {
     if (e.is_eigenvalue()) continue;
     wanted.expectations.push_back(e);
@@ -36,7 +37,7 @@ Wanted wanted_quantities(const Setup& setup) {
 }
 
 CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& interrupt) {
-  const auto [expectations, quantities] = wanted_quantities(setup);
+  const auto [expectations, quantities] = expected_quantities(setup);
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   CaseResult result{setup.config.file(), run_static(*problem.path, *problem.stepper, {}, interrupt), {}};
   if (setup.linearity) setup.linearity->require(problem.path->times().end, result.outcome.last.q);
@@ -50,11 +51,11 @@ CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& inter
 }
 
 CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, const std::atomic<bool>& interrupt) {
-  const auto [expectations, quantities] = wanted_quantities(setup);
+  const auto [expectations, quantities] = expected_quantities(setup);
   SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
   observers.push_back(&recorder);
   if (setup.linearity) observers.push_back(setup.linearity.get());
-  Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  Plan plan{setup.scene.time.end, requested_times(expectations, setup.scene.time.start), false};
   EventFinder events(setup.events);
   if (!events.empty()) plan.events = &events;
   CaseResult result{setup.config.file(),
@@ -77,7 +78,49 @@ CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Ob
   return setup.scene.is_static() ? verify_equilibrium(setup, interrupt) : verify_motion(setup, observers, interrupt);
 }
 
-// The time of the eigenvalue solution is added to that of the run; its failure becomes that of the run.
+void check_frequencies(const Setup& setup, std::vector<Check>& checks) {
+  std::vector<WantedMetric> wanted;
+  for (const auto& e : setup.scene.expect)
+    if (e.mode) wanted.push_back({.mode = e.mode});
+  if (wanted.empty()) return;
+  const Scene scene = setup.scene.is_static() ? setup.scene : at_rest(setup.scene);
+  const BuiltScene built = build(scene);
+  const Vector zero = Vector::Zero(built.model->num_dofs());
+  const WantedModes found = wanted_modes(wanted, *built.model, {scene.time.end, zero, zero, 0});
+  auto chosen = found.chosen.begin();
+  for (const auto& e : setup.scene.expect) {
+    if (!e.mode) continue;
+    checks.push_back({e, *chosen ? found.modes.modes[**chosen].frequency() : std::nan(""), "Hz"});
+    ++chosen;
+  }
+}
+
+void check_load_factors(const Setup& setup, std::vector<Check>& checks) {
+  int count = 0;
+  for (const auto& e : setup.scene.expect) count = std::max(count, e.buckling.value_or(0));
+  if (count == 0) return;
+  const double t = setup.scene.time.end;
+  const FemModel& model = *setup.built.model;
+  require_held(setup.scene, model, t);
+  const auto modes = buckling_modes(model, unloaded_shape(setup.scene, setup.built), t, count).modes;
+  for (const auto& e : setup.scene.expect) {
+    if (!e.buckling) continue;
+    const auto k = static_cast<std::size_t>(*e.buckling - 1);
+    checks.push_back({e, k < modes.size() ? modes[k].load_factor : std::nan(""), ""});
+  }
+}
+
+// Checks of the natural frequencies, then of the critical load factors; NaN for a mode that does not exist. Throws what
+// natural_modes() and buckling_modes() throw.
+std::vector<Check> eigenvalue_checks(const Setup& setup) {
+  std::vector<Check> checks;
+  check_frequencies(setup, checks);
+  check_load_factors(setup, checks);
+  return checks;
+}
+
+// Adds the checks and the time of the eigenvalue solution to the run's. If the eigenvalue solution fails, so does the
+// run.
 void verify_eigenvalues(const Setup& setup, CaseResult& result) {
   if (std::ranges::none_of(setup.scene.expect, &Expectation::is_eigenvalue)) return;
   std::vector<Check> checks;
@@ -107,7 +150,7 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
     std::vector<std::string> here;
     for (const auto& entry : fs::directory_iterator(place))
       if (entry.path().extension() == ".yaml") here.push_back(entry.path().string());
-    if (here.empty()) throw ConfigError(place, "holds no *.yaml files");
+    if (here.empty()) throw ConfigError(place, "contains no *.yaml files");
     std::sort(here.begin(), here.end());
     files.insert(files.end(), here.begin(), here.end());
   }

@@ -1,5 +1,5 @@
-// A metric that a sweep wants of each point: of a quantity's course over time, a natural frequency, a critical load
-// factor, or a cost.
+// A metric requested of each point of a study: a reduction of a quantity over time, a natural frequency, a critical
+// load factor, or a cost. Exactly one of `quantity`, `mode` (or `along`), `buckling` and `cost` is set.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "lib/fem/motion/component.h"
+#include "lib/fem/motion/support_motion.h"
 #include "lib/scene/expectation.h"
 
 namespace orthodyn {
 
-// Of the axes of plots, and of ranges.
+// Scale of plot axes and of ranges.
 enum class Scale { linear, log };
 
 template <>
@@ -20,13 +20,12 @@ struct EnumNames<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };
 
-// Exactly one of: quantity, mode (or along), buckling, cost.
 struct WantedMetric {
   std::string quantity = {};
-  Take take = Take::end;
+  TimeReduction take = TimeReduction::end;
   std::optional<double> at = {}, of = {}, settled_within = {};
   std::optional<int> mode = {};
-  std::optional<Component> along = {};  // in place of the mode's number: that with the largest effective mass along it
+  std::optional<Component> along = {};  // instead of `mode`: the mode with the largest effective mass along this axis
   bool about_equilibrium = false;
   std::optional<int> buckling = {};
   std::string cost = {};
@@ -35,14 +34,12 @@ struct WantedMetric {
   SourceLocation origin = {};
   static const Spec<WantedMetric>& spec();
 
+  // True if the metric needs a motion or an equilibrium.
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
-  // Its SI unit, where its quantity has the given one; "" for a plain number.
+  // SI unit of the metric, given that of its quantity; "" for a plain number.
   std::string unit_of(const std::string& quantity_unit) const;
-  // Throws ConfigError if it cannot be shown in `unit`.
+  // Throws ConfigError if `unit` has another dimension.
   void check_unit(const std::string& quantity_unit) const;
 };
-
-// What a point can have cost, by name: "cpu_seconds", "steps", ... with their units.
-const std::vector<std::pair<std::string, std::string>>& cost_names();
 
 }  // namespace orthodyn

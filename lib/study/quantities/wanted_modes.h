@@ -1,4 +1,4 @@
-// Natural frequencies of a point of a sweep: by number, rigid modes not counted, or by effective mass along an axis.
+// The natural modes that metrics request: by number, not counting rigid modes, or by effective mass along an axis.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,13 @@
 
 namespace orthodyn {
 
-// Modes, up to the highest that is wanted, and of each metric, which has `mode` or `along`, which of them it is; none
-// where the model is too small to have it.
 struct WantedModes {
-  Modes modes;
+  Modes modes;  // all up to the highest requested one
+  // By metric: index of its mode in modes.modes; empty if the model has too few modes.
   std::vector<std::optional<std::size_t>> chosen;
 };
 
-// Throws what natural_modes() throws.
+// Precondition: each metric has `mode` or `along`. Throws what natural_modes() throws.
 WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const Model& model, const State& about);
 
 }  // namespace orthodyn

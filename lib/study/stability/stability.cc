@@ -5,7 +5,7 @@
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
-#include "lib/simulation/run/input_kind.h"
+#include "lib/simulation/run/scene_file.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/inputs/scene_entry.h"
 #include "lib/study/inputs/scene_variant.h"
@@ -17,28 +17,20 @@ namespace {
 void check(const Stability& stability, const Config& config) {
   if (stability.cases.empty()) config.at("cases").fail("is empty; name at least one scene with an 'expect' list");
   if (stability.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
-  if (stability.variants.empty()) config.at("variants").fail("is empty; leave it out to keep the force unchanged");
+  if (stability.variants.empty()) config.at("variants").fail("is empty; remove it to run the cases unchanged");
 }
 
-// Reads it, too: wrong input shows before anything runs.
+// Reads the scene, so that input errors are reported before anything runs.
 Config scene_of(const SceneVariant& variant, const StabilityIntegrator& entry) {
   Config config = with_integrator(variant, entry.type, entry.options, [](const std::string&) { return true; });
   config.set("output.fields", std::vector<std::string>());
   for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
   if (read_scene(config).expect.empty())
-    config.fail("has no 'expect' list, so nothing can be judged (see `orthodyn list expect`)");
+    config.fail("has no 'expect' list, so it cannot be graded (see `orthodyn list expect`)");
   return config;
 }
 
 }  // namespace
-
-HardCase Value<HardCase>::read(const Config& c, const Rule&) {
-  HardCase entry;
-  if (c.is_map()) entry = HardCase::spec().read(c);
-  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
-  if (entry.label.empty()) entry.label = stem(entry.file.path);
-  return entry;
-}
 
 ValueSchema Value<StabilityIntegrator>::schema() {
   auto names = Registry<IntegratorChoice>::names();
@@ -56,11 +48,11 @@ StabilityIntegrator Value<StabilityIntegrator>::read(const Config& c, const Rule
 const Spec<HardCase>& HardCase::spec() {
   static const auto s =
       Spec<HardCase>()
-          .key("file", &HardCase::file, "A scene with an `expect` list.", {.required = true})
-          .key("label", &HardCase::label, "Its name in the matrix; default the file's.")
-          .key("set", &HardCase::set, "Changes by path: {mesh.cells: [45, 9, 9]}.")
+          .key("file", &HardCase::file, "Scene file with an `expect` list.", {.required = true})
+          .key("label", &HardCase::label, "Name in the matrix; default the file's name.")
+          .key("set", &HardCase::set, "Changes of the scene by path: {mesh.cells: [45, 9, 9]}.")
           .key("model", &HardCase::model,
-               "If the model itself is at fault and no integrator can help: the reason, shown in its row.");
+               "Reason why no integrator can pass, if the model itself is at fault; shown in the case's row.");
   return s;
 }
 
@@ -68,16 +60,16 @@ const Spec<Stability>& Stability::spec() {
   static const auto s =
       Spec<Stability>()
           .key("title", &Stability::title, "Heading of the report; default the file's name.")
-          .key("description", &Stability::description, "What is tried and why, in a sentence or two.")
+          .key("description", &Stability::description, "One or two sentences for the report: what is tested, and why.")
           .key("cases", &Stability::cases, "Scenes with an `expect` list, or sections {file, label, set, model}.",
                {.required = true})
           .key("integrators", &Stability::integrators,
                "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
           .key("variants", &Stability::variants,
-               "Changes that every case is run with, by name and path, such as {warped: {elasticity.corotation: "
-               "warped}}.",
+               "Named sets of changes by path, such as {warped: {elasticity.corotation: warped}}. Every case runs with "
+               "each set.",
                {.fallback = "{default: {}}"})
-          .key("limits", &Stability::limits, "Limits of each trial.")
+          .key("limits", &Stability::limits, "Wall time and memory limits of each run.")
           .check(check);
   return s;
 }

@@ -1,4 +1,4 @@
-// Hard cases, as a YAML file names them: scenes that expect metrics x integrators x changes to the force.
+// A stability study as declared in its YAML file: scenes with expectations (hard cases) x variants x integrators.
 #pragma once
 
 #include <string>
@@ -6,20 +6,21 @@
 
 #include "lib/study/inputs/integrator_entry.h"
 #include "lib/study/inputs/limits.h"
+#include "lib/study/inputs/scene_entry.h"
 
 namespace orthodyn {
 
-// In the list of cases: a file, or a section.
+// A case: a file name or a section.
 struct HardCase {
   FilePath file;
   std::string label;  // default the file's stem
   Assignments set;
-  std::string model;  // where the model itself is at fault and no integrator can help: why, in words
+  std::string model;  // reason why no integrator can pass, if the model itself is at fault; else ""
   SourceLocation origin;
   static const Spec<HardCase>& spec();
 };
 
-// In the list of integrators: a name, `all`, or a section {type, label, any option}, rtol among them.
+// An integrator: a name, `all`, or a section {type, label, any option including rtol}.
 struct StabilityIntegrator : IntegratorEntry {};
 
 struct Stability {
@@ -27,19 +28,15 @@ struct Stability {
   std::string title, description;
   std::vector<HardCase> cases;
   std::vector<StabilityIntegrator> integrators;
-  Named<Assignments> variants;  // of the scenes, by name
+  Named<Assignments> variants;  // changes of the scenes, by name
   Limits limits{20, 4e9};
   static const Spec<Stability>& spec();
 };
 
 template <>
 struct Value<HardCase> {
-  static ValueSchema schema() {
-    const ValueSchema section{
-        .kind = ValueSchema::Kind::section, .title = "HardCase", .keys = [] { return HardCase::spec().keys(); }};
-    return {.kind = ValueSchema::Kind::either, .items = {Value<FilePath>::schema(), section}};
-  }
-  static HardCase read(const Config& c, const Rule&);
+  static ValueSchema schema() { return file_entry_schema<HardCase>("HardCase"); }
+  static HardCase read(const Config& c, const Rule&) { return read_file_entry<HardCase>(c); }
   static std::string yaml(const HardCase&) { return ""; }
 };
 
@@ -50,18 +47,19 @@ struct Value<StabilityIntegrator> {
   static std::string yaml(const StabilityIntegrator&) { return ""; }
 };
 
-// Throws ConfigError.
+// Reads and checks a file of hard cases. Throws ConfigError.
 Stability read_stability(const Config& config);
 
-// One field of the matrix: a case with one force and one integrator, as it will run.
+// One entry of the matrix: a case with a variant and an integrator.
 struct StabilityRun {
   std::size_t hard_case = 0, variant = 0, integrator = 0;
   std::string title;  // "mirrored, warped, cvode_bdf"
   Config scene;       // resolved
 };
 
-// All of them, by case, then variant, then integrator. Options of a scene's own integrator, rtol among them, are kept
-// where an integrator has such keys. Throws ConfigError, also for a scene that is at fault or expects nothing.
+// All runs, ordered by case, variant, integrator. Options of a scene's own integrator, including rtol, stay if the
+// study's integrator has the same key and does not set it. Throws ConfigError for an invalid scene or one without
+// expectations.
 std::vector<StabilityRun> stability_runs(const Stability& stability);
 
 }  // namespace orthodyn

@@ -9,8 +9,7 @@
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/machine.h"
 #include "lib/study/inputs/scene_entry.h"
-#include "lib/study/jobs/json_values.h"
-#include "lib/study/stability/suspected.h"
+#include "lib/study/jobs/json_fields.h"
 
 namespace orthodyn::study::stability {
 
@@ -18,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Builds the scene, too: what is wrong with it shows before anything runs.
-std::string mesh_hash(const StabilityRun& run) {
+// Also builds the scene, so that its errors are reported before anything runs.
+std::string hash_of_built_mesh(const StabilityRun& run) {
   try {
     const Scene scene = read_scene(run.scene);
     build(scene);
@@ -32,12 +31,12 @@ std::string mesh_hash(const StabilityRun& run) {
 std::vector<Job> jobs_of(const std::vector<StabilityRun>& runs, const Limits& limits, const fs::path& folder) {
   const Json input = to_json(CaseInput{limits.seconds, code_fingerprint()});
   const ProcessLimits process_limits{limits.seconds + kSetUpSeconds, limits.memory};
-  std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
+  std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // by case and variant
   FileFingerprints files;
   std::vector<Job> jobs;
   for (const auto& run : runs) {
     std::string& mesh = meshes[{run.hard_case, run.variant}];
-    if (mesh.empty()) mesh = mesh_hash(run);
+    if (mesh.empty()) mesh = hash_of_built_mesh(run);
     Fingerprint hash;
     hash.add(machine_fingerprint()).add(run.scene.dump()).add(input.dump());
     hash.add(fmt::format("{}", limits.memory)).add(mesh);
@@ -103,27 +102,22 @@ Json StabilityMatrix::json(const std::string& file) const {
 }
 
 std::string StabilityMatrix::csv() const {
-  std::string csv =
-      "case,variant,integrator,grade,reason,metric,unit,computed,expected,limit,time_reached [s],wall [s],cpu "
-      "[s],steps\n";
-  for (const auto& [run, result] : results_) {
-    const Json r = run_json(run, result), worst = member(r, "worst"), statistics = member(r, "statistics");
-    const std::vector<Json> row{r.at("case"),
-                                r.at("variant"),
-                                r.at("integrator"),
-                                r.at("grade"),
-                                r.at("reason"),
-                                member(worst, "title"),
-                                member(worst, "unit"),
-                                member(worst, "computed"),
-                                member(worst, "expected"),
-                                member(worst, "limit"),
-                                member(r, "time_reached"),
-                                member(r, "wall"),
-                                member(r, "cpu"),
-                                member(statistics, "steps")};
-    for (std::size_t k = 0; k < row.size(); ++k) csv += csv_cell(row[k]) + (k + 1 < row.size() ? "," : "\n");
-  }
+  static const std::vector<CsvColumn> columns{{"case", "", {"case"}},
+                                              {"variant", "", {"variant"}},
+                                              {"integrator", "", {"integrator"}},
+                                              {"grade", "", {"grade"}},
+                                              {"reason", "", {"reason"}},
+                                              {"metric", "", {"worst", "title"}},
+                                              {"unit", "", {"worst", "unit"}},
+                                              {"computed", "", {"worst", "computed"}},
+                                              {"expected", "", {"worst", "expected"}},
+                                              {"limit", "", {"worst", "limit"}},
+                                              {"time_reached", "s", {"time_reached"}},
+                                              {"wall", "s", {"wall"}},
+                                              {"cpu", "s", {"cpu"}},
+                                              {"steps", "", {"statistics", "steps"}}};
+  std::string csv = csv_head(columns) + "\n";
+  for (const auto& [run, result] : results_) csv += csv_row(columns, run_json(run, result)) + "\n";
   return csv;
 }
 

@@ -1,4 +1,4 @@
-// A matrix of hard cases: runs each of its fields in a process of its own, and tells what came out.
+// Runs a stability study, each entry of the matrix in its own process, and writes its results.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@ namespace orthodyn::study::stability {
 
 class StabilityMatrix {
  public:
-  // What is finished in the folder is not done again. Throws ConfigError for input that is at fault.
+  // Reads and builds every scene. Results already in the folder are kept. Throws ConfigError for invalid input.
   StabilityMatrix(Stability stability, std::filesystem::path folder);
 
-  // Calls `after_each` for each run that is over, or was done before. False if interrupted. Throws as JobQueue::run().
+  // Calls `after_each` after each run, also if its result was already in the folder (`cached`). Returns false if
+  // interrupted. Throws as JobQueue::run() does.
   bool run(const JobQueue& queue,
            const std::function<void(std::size_t run, const StabilityResult&, bool cached)>& after_each);
 
   const std::vector<StabilityRun>& runs() const { return runs_; }
-  const std::vector<Job>& jobs() const { return jobs_; }  // by run
+  const std::vector<Job>& jobs() const { return jobs_; }  // one per run
 
-  // The document of the report, and a row a run; of what is done. `file`: the study's.
+  // The finished runs as a JSON document, and as CSV with one row per run. `file`: path of the study's file.
   Json json(const std::string& file) const;
   std::string csv() const;
 
@@ -35,10 +36,27 @@ class StabilityMatrix {
 
   Stability stability_;
   std::filesystem::path folder_;
-  std::vector<std::string> sentences_;  // of the cases
+  std::vector<std::string> sentences_;  // descriptions of the cases
   std::vector<StabilityRun> runs_;
   std::vector<Job> jobs_;
   std::map<std::size_t, StabilityResult> results_;
 };
+
+// An expectation that all integrators miss by about the same amount. The fault is then suspected in the expectation or
+// in the model, not in the integrators.
+struct Suspicion {
+  std::string hard_case, variant, metric;
+  std::size_t integrators = 0;     // number that completed
+  double lowest = 0, highest = 0;  // computed values
+  double expected = 0;
+};
+
+// One sentence for the report.
+std::string describe(const Suspicion& suspicion);
+
+// `cases` and `trials`: as in stability.json. An expectation of a case and variant is suspected if at least two
+// integrators completed, none of them passes, all have the same worst metric, and its computed values differ by at most
+// its limit. Cases with a `model` reason are left out.
+std::vector<Suspicion> suspected_expectations(const Json& cases, const Json& trials);
 
 }  // namespace orthodyn::study::stability

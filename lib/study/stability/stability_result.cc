@@ -1,51 +1,38 @@
 #include "lib/study/stability/stability_result.h"
 
-#include "lib/study/jobs/json_values.h"
+#include "lib/study/jobs/json_fields.h"
 
-namespace orthodyn::study::stability {
+namespace orthodyn::study {
 
-namespace {
+template <>
+const JsonFields<stability::CaseInput> json_fields<stability::CaseInput>{{"seconds", &stability::CaseInput::seconds},
+                                                                         {"code", &stability::CaseInput::code}};
 
-Json to_json(const WorstMetric& f) {
-  return {{"title", f.title},        {"unit", f.unit},   {"computed", finite_or_null(f.computed)},
-          {"expected", f.expected},  {"limit", f.limit}, {"source", f.source},
-          {"tolerance", f.tolerance}};
-}
+template <>
+const JsonFields<stability::WorstMetric> json_fields<stability::WorstMetric>{
+    {"title", &stability::WorstMetric::title},        {"unit", &stability::WorstMetric::unit},
+    {"computed", &stability::WorstMetric::computed},  {"expected", &stability::WorstMetric::expected},
+    {"limit", &stability::WorstMetric::limit},        {"source", &stability::WorstMetric::source},
+    {"tolerance", &stability::WorstMetric::tolerance}};
 
-WorstMetric worst_from(const Json& json) {
-  return {json.at("title"),    json.at("unit"),  number_or_nan(json.at("computed")),
-          json.at("expected"), json.at("limit"), json.at("source"),
-          json.at("tolerance")};
-}
+template <>
+const JsonFields<stability::GradedRun> json_fields<stability::GradedRun>{
+    {"grade", &stability::GradedRun::grade},
+    {"reason", &stability::GradedRun::reason},
+    {"worst", &stability::GradedRun::worst, Empty::null},
+    {"time_reached", &stability::GradedRun::time_reached},
+    {"wall", &stability::GradedRun::wall_seconds},
+    {"cpu", &stability::GradedRun::cpu_seconds},
+    {"statistics", &stability::GradedRun::statistics}};
 
-GradedRun graded_run_from(const Json& json) {
-  GradedRun run;
-  run.completed = json.at("status") == "completed";
-  run.grade = json.at("grade");
-  run.reason = json.at("reason");
-  if (!json.at("worst").is_null()) run.worst = worst_from(json.at("worst"));
-  run.time_reached = json.at("time_reached");
-  run.wall_seconds = json.at("wall");
-  run.cpu_seconds = json.at("cpu");
-  if (json.contains("statistics")) run.statistics = statistics_from(json.at("statistics"));
-  return run;
-}
+namespace stability {
 
-}  // namespace
-
-Json to_json(const CaseInput& input) { return {{"seconds", input.seconds}, {"code", input.code}}; }
-
-CaseInput case_input_from(const Json& json) { return {json.at("seconds"), json.at("code")}; }
+Json to_json(const CaseInput& input) { return JsonValue<CaseInput>::to(input); }
+CaseInput case_input_from(const Json& json) { return JsonValue<CaseInput>::from(json); }
 
 Json to_json(const GradedRun& run) {
-  Json json{{"status", run.completed ? "completed" : "failed"},
-            {"grade", run.grade},
-            {"reason", run.reason},
-            {"worst", run.worst ? to_json(*run.worst) : Json()},
-            {"time_reached", run.time_reached},
-            {"wall", run.wall_seconds},
-            {"cpu", run.cpu_seconds}};
-  if (run.statistics) json["statistics"] = to_json(*run.statistics);
+  Json json{{"status", run.completed ? "completed" : "failed"}};
+  json_fields<GradedRun>.write(run, json);
   return json;
 }
 
@@ -69,9 +56,15 @@ Json to_json(const StabilityResult& result) {
 StabilityResult stability_result_from(const Json& json) {
   StabilityResult result;
   result.at = json.value("at", "");
-  if (json.contains("grade")) result.run = graded_run_from(json);
-  else result.failure = failure_from(json).value_or(Failure{});
+  if (json.contains("grade")) {
+    result.run = JsonValue<GradedRun>::from(json);
+    result.run->completed = json.at("status") == "completed";
+  } else {
+    result.failure = failure_from(json).value_or(Failure{});
+  }
   return result;
 }
 
-}  // namespace orthodyn::study::stability
+}  // namespace stability
+
+}  // namespace orthodyn::study

@@ -1,5 +1,4 @@
-#include "lib/study/stability/suspected.h"
-
+// Expectations that all integrators miss by the same amount.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,9 @@
 #include <map>
 #include <optional>
 #include <utility>
+
+#include "lib/study/jobs/json_values.h"
+#include "lib/study/stability/stability_matrix.h"
 
 namespace orthodyn::study::stability {
 
@@ -43,9 +45,8 @@ std::optional<Suspicion> suspicion(const Field& field, const std::vector<Json>& 
 
 std::string describe(const Suspicion& s) {
   return fmt::format(
-      "{}, {}: all {} integrators that finished agree on {} ({:.4g} to {:.4g}) and miss the expected {:.4g}; suspect "
-      "the "
-      "expectation, or the model, rather than the integrators",
+      "{}, {}: all {} integrators that completed agree on {} ({:.4g} to {:.4g}) and miss the expected {:.4g}; check "
+      "the expectation or the model rather than the integrators",
       s.hard_case, s.variant, s.integrators, s.metric, s.lowest, s.highest, s.expected);
 }
 

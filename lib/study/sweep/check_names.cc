@@ -1,4 +1,4 @@
-// The names and paths of a sweep, checked.
+// Checks the names and paths of a sweep.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,12 @@ namespace orthodyn {
 
 namespace {
 
-// The columns of sweep.csv beside those of variables and metrics; those that a metric of this cost has are left out.
-constexpr std::string_view kTableColumns[] = {"point",       "status", "reason",   "message", "wall_seconds",
-                                              "cpu_seconds", "steps",  "unknowns", "folder"};
-// Columns beside that of a metric with a closed form: endings of its name.
-constexpr const char* kBesideClosedForms[] = {".closed_form", ".relative_difference"};
+// Columns of sweep.csv besides variables and metrics. A metric of the same cost replaces its column.
+constexpr std::string_view kTableColumns[] = {"point",        "status",      "reason",  "message",
+                                              "wall_seconds", "cpu_seconds", "steps",   "unknowns",
+                                              "folder",       "mesh_error",  "warnings"};
+// Suffixes of the additional columns of a metric with a closed form.
+constexpr const char* kClosedFormColumns[] = {".closed_form", ".relative_difference"};
 
 using Places = std::map<std::string, SourceLocation>;  // by path or name
 
@@ -28,21 +29,21 @@ Places paths_of(const Variable& v) {
   return paths;
 }
 
-// A later variable is set after an earlier one: what it replaces would still be told of the points.
+// Later variables are assigned after earlier ones. If a later variable replaced an earlier value, the table would still
+// show the earlier value.
 void refuse_replaced_values(const Variable& earlier, const Variable& later) {
   for (const auto& [path, place] : paths_of(later)) {
     for (const auto& [other, other_place] : paths_of(earlier)) {
       if (path == other)
-        place.fail(fmt::format("'{}' is set here and at {}: only one of the two can apply; remove one", path,
-                               other_place.where));
+        place.fail(fmt::format("'{}' is set here and at {}; remove one of the two", path, other_place.where));
       if (other.starts_with(path + "."))
-        place.fail(fmt::format("'{}' replaces '{}', which is set at {}; put this one before it, or remove one", path,
-                               other, other_place.where));
+        place.fail(fmt::format("'{}' replaces '{}', which is set at {}; put this one first, or remove one of the two",
+                               path, other, other_place.where));
     }
   }
 }
 
-// Every formula, for what mentions a name.
+// All formulas of a sweep.
 std::vector<std::string> formulas_of(const Sweep& sweep) {
   std::vector<std::string> all;
   const auto add_texts = [&](const auto& list) {
@@ -61,7 +62,7 @@ std::vector<std::string> formulas_of(const Sweep& sweep) {
   return all;
 }
 
-// A slip in a key's name would vary nothing.
+// A misspelled key would not vary anything.
 void refuse_unused_names(const Sweep& sweep) {
   const auto formulas = formulas_of(sweep);
   const auto require = [&](const std::string& name, const SourceLocation& place) {
@@ -75,49 +76,50 @@ void refuse_unused_names(const Sweep& sweep) {
   }
 }
 
-void take(Places& taken, const std::string& name, const SourceLocation& place) {
+void reserve(Places& taken, const std::string& name, const SourceLocation& place) {
   const auto [other, is_new] = taken.emplace(name, place);
   if (!is_new)
-    place.fail(fmt::format("the name '{}' is taken at {}; formulas could not tell them apart: give another", name,
+    place.fail(fmt::format("the name '{}' is already used at {}; formulas need unique names, so choose another", name,
                            other->second.where));
 }
 
-void refuse_names_of_two_things(const Sweep& sweep) {
+void refuse_ambiguous_names(const Sweep& sweep) {
   Places taken;
-  for (const auto& v : sweep.vary) taken.emplace(v.name, v.origin);  // each another, as they were read
+  for (const auto& v : sweep.vary) taken.emplace(v.name, v.origin);  // unique, as checked when reading
   for (const auto& v : sweep.vary) {
     Places own;
     for (const auto& value : v.values)
       for (const auto& [name, formula] : value.let)
-        if (name != v.name) own.emplace(name, formula.origin);  // a set has no number of its own
-    for (const auto& [name, place] : own) take(taken, name, place);
+        if (name != v.name)
+          own.emplace(name, formula.origin);  // a variable of named sets has no number, so its name is free
+    for (const auto& [name, place] : own) reserve(taken, name, place);
   }
-  for (const auto& [name, definition] : sweep.definitions) take(taken, name, definition.origin);
+  for (const auto& [name, definition] : sweep.definitions) reserve(taken, name, definition.origin);
 }
 
 bool is_blank(const std::string& name) { return name.find_first_not_of(' ') == std::string::npos; }
 
-// The table has a column for each variable and metric beside its own.
+// Variables and metrics head columns of the table, whose names must be unique.
 void refuse_equal_columns(const Sweep& sweep) {
   Places taken;
   const auto add = [&](const std::string& name, const SourceLocation& place) {
-    if (is_blank(name)) place.fail("has no name; give one to head its column of the table");
+    if (is_blank(name)) place.fail("has a blank name; give a name for its column in the table");
     const auto [other, is_new] = taken.emplace(name, place);
     if (!is_new)
       place.fail(
-          fmt::format("the table already has a column '{}', of {}; give another name", name, other->second.where));
+          fmt::format("the table already has a column '{}', from {}; choose another name", name, other->second.where));
   };
   for (const auto& v : sweep.vary) add(v.name, v.origin);
-  for (const auto& [name, f] : sweep.quantities) {
-    add(name, f.origin);
-    if (f.closed_form.empty()) continue;
-    for (const char* ending : kBesideClosedForms) add(name + ending, f.origin);
+  for (const auto& [name, m] : sweep.quantities) {
+    add(name, m.origin);
+    if (m.closed_form.empty()) continue;
+    for (const char* ending : kClosedFormColumns) add(name + ending, m.origin);
   }
   for (const auto& [name, place] : taken) {
     const auto is_cost = [&, &n = name](const auto& q) { return q.first == n && q.second.cost == n; };
     if (std::find(std::begin(kTableColumns), std::end(kTableColumns), name) == std::end(kTableColumns)) continue;
     if (std::any_of(sweep.quantities.begin(), sweep.quantities.end(), is_cost)) continue;  // the same column
-    place.fail(fmt::format("the table has a column '{}' of its own; give another name", name));
+    place.fail(fmt::format("the table always has a column '{}'; choose another name", name));
   }
 }
 
@@ -127,7 +129,7 @@ void check_names(const Sweep& sweep) {
   for (auto later = sweep.vary.begin(); later != sweep.vary.end(); ++later)
     for (auto earlier = sweep.vary.begin(); earlier != later; ++earlier) refuse_replaced_values(*earlier, *later);
   refuse_unused_names(sweep);
-  refuse_names_of_two_things(sweep);
+  refuse_ambiguous_names(sweep);
   refuse_equal_columns(sweep);
 }
 

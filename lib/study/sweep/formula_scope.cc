@@ -17,13 +17,13 @@ class NamedFormula : public Formula {
   double at(const std::vector<double>& values) const { return evaluate(values.data()); }
 };
 
-bool is_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 }  // namespace
 
 bool is_identifier(const std::string& name) {
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) return false;
-  return std::all_of(name.begin(), name.end(), is_of_a_name);
+  return std::all_of(name.begin(), name.end(), is_name_character);
 }
 
 void check_formula_name(const std::string& name, const Config& at) {
@@ -31,7 +31,7 @@ void check_formula_name(const std::string& name, const Config& at) {
     at.fail("the name '" + name +
             "' cannot be used in formulas: a name consists of letters, digits and '_', no digit first");
   if (name == "e" || name == "pi")
-    at.fail("the name '" + name + "' is a constant of formulas; give another (a varied key has 'name' for that)");
+    at.fail("the name '" + name + "' is a constant in formulas; choose another (for a varied key: 'name')");
 }
 
 void FormulaScope::add(const std::string& name, double value) {
@@ -43,10 +43,9 @@ double FormulaScope::evaluate(const std::string& formula, const std::string& whe
   try {
     return NamedFormula(formula, names_, where).at(values_);
   } catch (const std::invalid_argument& e) {
-    throw ConfigError(where,
-                      fmt::format("cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, "
-                                  "sqrt.",
-                                  formula, e.what(), join(names_)));
+    throw ConfigError(
+        where, fmt::format("cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, sqrt.",
+                           formula, e.what(), join(names_)));
   }
 }
 
@@ -67,7 +66,7 @@ std::string FormulaScope::resolved(const Config& value, const std::string& where
 bool mentions(const std::string& formula, const std::string& name) {
   for (std::size_t at = formula.find(name); at != std::string::npos; at = formula.find(name, at + 1)) {
     const auto end = at + name.size();
-    if ((at == 0 || !is_of_a_name(formula[at - 1])) && (end == formula.size() || !is_of_a_name(formula[end])))
+    if ((at == 0 || !is_name_character(formula[at - 1])) && (end == formula.size() || !is_name_character(formula[end])))
       return true;
   }
   return false;

@@ -1,4 +1,4 @@
-// The unit of a key of a scene by its path, from the declarations of the keys.
+// Units of scene keys by path, from their declarations.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace orthodyn {
 
-// In SI, of a number at "materials.wood.young.0"; "" if it has none or is no number. The scene says what the sections
-// on the way are (their `type`).
+// SI unit of the number at a path such as "materials.wood.young.0"; "" for a plain number and for anything else.
+// `scene`: where the `type` of each section on the path is looked up.
 std::string unit_at(const std::string& path, const Config& scene);
 
 }  // namespace orthodyn

@@ -11,12 +11,12 @@ namespace orthodyn {
 
 namespace {
 
-// The distributions of the standard library differ between implementations; its generators do not.
+// Not std::uniform_real_distribution, whose results differ between standard libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 }  // namespace
 
-double share_in(std::size_t stratum, double u, std::size_t strata) {
+double position_in(std::size_t stratum, double u, std::size_t strata) {
   return std::min((static_cast<double>(stratum) + u) / static_cast<double>(strata), std::nextafter(1.0, 0.0));
 }
 
@@ -29,7 +29,7 @@ std::vector<std::vector<double>> latin_hypercube(int points, int dimensions, lon
     std::iota(strata.begin(), strata.end(), 0u);
     for (std::size_t i = n; i > 1; --i)
       std::swap(strata[i - 1], strata[static_cast<std::size_t>(uniform(random) * static_cast<double>(i))]);
-    for (std::size_t i = 0; i < n; ++i) out[i][k] = share_in(strata[i], uniform(random), n);
+    for (std::size_t i = 0; i < n; ++i) out[i][k] = position_in(strata[i], uniform(random), n);
   }
   return out;
 }

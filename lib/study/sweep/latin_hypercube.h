@@ -1,5 +1,5 @@
-// Latin hypercube sampling (McKay, Beckman, Conover 1979): in each dimension every one of n strata of [0, 1) has
-// exactly one of the n points. The same everywhere for a seed.
+// Latin hypercube sampling (McKay, Beckman, Conover 1979): in each dimension, each of n strata of [0, 1) contains
+// exactly one of the n points. A seed gives the same points on every platform.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace orthodyn {
 
-// At u in [0, 1) of a stratum, in [0, 1): the sum of the last stratum and u may round to 1.
-double share_in(std::size_t stratum, double u, std::size_t strata);
+// (stratum + u) / strata with u in [0, 1). The result is below 1 even where rounding would give 1.
+double position_in(std::size_t stratum, double u, std::size_t strata);
 
-// By point, then dimension.
+// Coordinates in [0, 1), indexed by point, then by dimension.
 std::vector<std::vector<double>> latin_hypercube(int points, int dimensions, long seed);
 
 }  // namespace orthodyn

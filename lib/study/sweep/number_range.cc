@@ -1,4 +1,4 @@
-// The values of a variable by their ends: from, to.
+// Ranges of a variable: {from, to, count}.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,18 +14,18 @@ namespace orthodyn {
 namespace {
 
 constexpr const char* kNameSentence =
-    "Its name in formulas, tables and metrics; default the path's last step, with the index of an entry (young.0).";
+    "Name in formulas, tables and plots; default the last key of the path, with the index of an entry (young.0).";
 
 void check_range(const NumberRange& r, const Config& config) {
   if (r.scale == Scale::log && !(r.from.number > 0 && r.to.number > 0))
     config.fail("scale: log needs 'from' and 'to' above 0");
 }
 
-// In one unit: that of the section, or else of `from`.
+// Converts both ends to one unit: that of the section, otherwise that of `from`.
 void settle_units(NumberRange& r, const Config& c) {
   check_unit(r.unit, c);
   if (r.unit.empty() && r.from.unit.empty() != r.to.unit.empty())
-    c.fail("one of 'from' and 'to' has a unit; give it to both, or as 'unit'");
+    c.fail("only one of 'from' and 'to' has a unit; give one to both, or give 'unit'");
   if (r.unit.empty()) r.unit = r.from.unit;
   const auto settle = [&](Amount& a, const char* key) {
     if (a.unit.empty()) return;
@@ -45,12 +45,12 @@ const Spec<NumberRange>& NumberRange::spec() {
       Spec<NumberRange>()
           .key("from", &NumberRange::from, "The first value.", {.required = true})
           .key("to", &NumberRange::to, "The last value.", {.required = true})
-          .key("count", &NumberRange::count, "How many, including both ends; not in a Latin hypercube.",
+          .key("count", &NumberRange::count, "Number of values including both ends; not for a Latin hypercube.",
                {.range = {1, 1e6}})
-          .key("scale", &NumberRange::scale, "log: neighbours have the same ratio, and axes are logarithmic.")
+          .key("scale", &NumberRange::scale, "log: values with a constant ratio and logarithmic axes.")
           .key("unit", &NumberRange::unit,
-               "Unit of the values, such as deg or GPa; formulas see SI units. Or give 'from' and 'to' units of their "
-               "own.")
+               "Unit of the values, such as deg or GPa; 'from' and 'to' may have their own units instead. Formulas use "
+               "SI units.")
           .key("name", &NumberRange::name, kNameSentence)
           .check(check_range);
   return s;
@@ -61,7 +61,7 @@ const Spec<ValueList>& ValueList::spec() {
       Spec<ValueList>()
           .key("values", &ValueList::values, "The values.", {.required = true})
           .key("unit", &ValueList::unit,
-               "Unit of numbers, such as deg or GPa; formulas see SI units. Or give them units of their own.")
+               "Unit of the numbers, such as deg or GPa; they may have their own units instead. Formulas use SI units.")
           .key("name", &ValueList::name, kNameSentence);
   return s;
 }
@@ -98,7 +98,7 @@ double range_at(const NumberRange& r, double share) {
   const double from = r.from.number, to = r.to.number;
   const double x = r.scale == Scale::log ? from * std::pow(to / from, share) : from + (to - from) * share;
   if (std::abs(x) < 1e-12 * std::max(std::abs(from), std::abs(to))) return 0;
-  // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
+  // Round to 12 digits, so that labels show 0.3 and not 0.30000000000000004.
   double simple = x;
   parse_number(fmt::format("{:.12g}", x), simple);
   return simple;
@@ -107,7 +107,7 @@ double range_at(const NumberRange& r, double share) {
 Amount Value<Amount>::read(const Config& c, const Rule&) {
   if (!c.is_scalar() || c.reads_as_number()) return {c.number(), ""};
   const auto parts = split_quantity(c.text());
-  if (!parts) return {c.number(), ""};  // says what is expected
+  if (!parts) return {c.number(), ""};  // fails with what is expected
   check_unit(parts->unit, c);
   return {parts->number, parts->unit};
 }

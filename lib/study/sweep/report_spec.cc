@@ -1,4 +1,4 @@
-// What the report of a sweep shows: the keys `frames` and `plots`.
+// Declarations of a sweep's sections `frames` and `plots`, the content of its report.
 #include <algorithm>
 
 #include "lib/core/spelling.h"
@@ -16,7 +16,7 @@ std::vector<std::string> components_of(const OutputInfo& info) {
   return all;
 }
 
-// As the drawing tool understands it: FIELD or FIELD.COMPONENT.
+// `color` must be FIELD or FIELD.COMPONENT, as the drawing tool expects.
 void check_color(const std::string& color, const Config& at) {
   const std::string field = color.substr(0, color.find('.'));
   std::vector<std::string> fields;
@@ -44,14 +44,15 @@ void check_frame(const FrameSpec& f, const Config& config) {
 const Spec<FrameSpec>& FrameSpec::spec() {
   static const auto s =
       Spec<FrameSpec>()
-          .key("at", &FrameSpec::at, "The time of the pictures; default the end.", {.unit = "s"})
-          .key("color", &FrameSpec::color, "What colours the body: displacement, stress, strain, velocity, det_f.")
-          .key("view", &FrameSpec::view, "Azimuth and elevation of the eye, degrees.")
-          .key("up", &FrameSpec::up, "The axis that is up.")
-          .key("enlarged", &FrameSpec::enlarged, "Enlarges the deformation.", {.range = kPositive})
+          .key("at", &FrameSpec::at, "Time of the pictures; default the end.", {.unit = "s"})
+          .key("color", &FrameSpec::color,
+               "Field that colours the body: displacement, stress, strain, velocity, det_f.")
+          .key("view", &FrameSpec::view, "Azimuth and elevation of the camera, degrees.")
+          .key("up", &FrameSpec::up, "Vertical axis: x, y or z.")
+          .key("enlarged", &FrameSpec::enlarged, "Scale factor of the deformation.", {.range = kPositive})
           .key("most", &FrameSpec::most,
-               "The largest number of pictures; of more points, evenly spaced ones are chosen.", {.range = {1, 100}})
-          .key("ghost", &FrameSpec::ghost, "Draw the outline of the rest shape as well.")
+               "Largest number of pictures; of more points, an evenly spaced selection is shown.", {.range = {1, 100}})
+          .key("ghost", &FrameSpec::ghost, "Also draw the outline of the rest shape.")
           .check(check_frame);
   return s;
 }
@@ -59,10 +60,10 @@ const Spec<FrameSpec>& FrameSpec::spec() {
 const Spec<PlotSpec>& PlotSpec::spec() {
   static const auto s =
       Spec<PlotSpec>()
-          .key("metric", &PlotSpec::metric, "One of `quantities`.", {.required = true})
+          .key("metric", &PlotSpec::metric, "Name of one of `quantities`.", {.required = true})
           .rename("figure", "metric")
-          .key("x", &PlotSpec::x, "The variable along the axis; default the one with most numbers.")
-          .key("lines", &PlotSpec::lines, "The variable with a line for each value; default the next.");
+          .key("x", &PlotSpec::x, "Variable on the horizontal axis; default the one with the most numbers.")
+          .key("lines", &PlotSpec::lines, "Variable with one line per value; default the next one.");
   return s;
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lib/simulation/run/input_kind.h"
+#include "lib/simulation/run/scene_file.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/sweep/formula_scope.h"
 
@@ -23,7 +23,7 @@ void check_plots(const Sweep& s, const Config& config) {
     const auto& plot = s.plots[i];
     const Config at = config.at("plots").at(i);
     std::vector<std::string> metrics, variables;
-    for (const auto& [name, f] : s.quantities) metrics.push_back(name);
+    for (const auto& [name, m] : s.quantities) metrics.push_back(name);
     for (const auto& v : s.vary) variables.push_back(v.name);
     const auto require = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known) {
       if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -35,15 +35,15 @@ void check_plots(const Sweep& s, const Config& config) {
   }
 }
 
-constexpr double kMostPoints = 1e7;  // a million asks for --yes
+constexpr double kMostPoints = 1e7;  // above a million, the program requires --yes
 
 void check_number_of_points(const Sweep& s, const Config& config) {
   double points = 1;
   for (const auto& v : s.vary) points *= static_cast<double>(v.values.size());
   if (s.combine == Combine::cartesian && points > kMostPoints)
     config.at("vary").fail(
-        fmt::format("every combination makes {:.3g} points, the most is {:.0g}; give fewer values, or combine: "
-                    "latin_hypercube with 'samples'",
+        fmt::format("all combinations are {:.3g} points, more than the limit of {:.0g}; give fewer values, or use "
+                    "combine: latin_hypercube with 'samples'",
                     points, kMostPoints));
 }
 
@@ -51,20 +51,21 @@ void check_sweep(const Sweep& s, const Config& config) {
   if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one metric");
   if (s.combine != Combine::latin_hypercube) {
     const std::string only =
-        "has a meaning only with combine: latin_hypercube, found combine: " + Value<Combine>::yaml(s.combine) +
+        "is only used with combine: latin_hypercube, found combine: " + Value<Combine>::yaml(s.combine) +
         "; remove one of them";
     if (s.samples) config.at("samples").fail(only);
     if (s.seed) config.at("seed").fail(only);
   }
   for (const auto& v : s.vary) {
     if (s.combine == Combine::latin_hypercube) {
-      if (v.range && v.range->count) v.origin.fail("a Latin hypercube has 'samples'; remove 'count'");
+      if (v.range && v.range->count)
+        v.origin.fail("'count' is not used in a Latin hypercube, which has 'samples'; remove it");
     } else if (v.range && !v.range->count) {
-      v.origin.fail("key 'count' is missing: how many values from 'from' to 'to'");
+      v.origin.fail("key 'count' is missing: the number of values from 'from' to 'to'");
     }
     if (s.combine == Combine::zip && v.values.size() != s.vary.front().values.size())
-      v.origin.fail(fmt::format("combine: zip takes values side by side: '{}' has {}, '{}' {}", v.name, v.values.size(),
-                                s.vary.front().name, s.vary.front().values.size()));
+      v.origin.fail(fmt::format("combine: zip needs equally many values: '{}' has {}, '{}' has {}", v.name,
+                                v.values.size(), s.vary.front().name, s.vary.front().values.size()));
   }
   for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
   check_names(s);
@@ -78,28 +79,30 @@ const Spec<Sweep>& Sweep::spec() {
   static const auto s =
       Spec<Sweep>()
           .key("title", &Sweep::title, "Heading of the report; default the file's name.")
-          .key("description", &Sweep::description, "What is varied and why, in a sentence or two.")
+          .key("description", &Sweep::description, "One or two sentences for the report: what is varied, and why.")
           .key("scene", &Sweep::scene,
-               "A scene file, or a section {file, set}. In `set` a text \"=formula\" stands for its value.",
+               "A scene file, or a section {file, set}. In `set`, a text \"=formula\" is replaced by its value.",
                {.required = true})
-          .key("definitions", &Sweep::definitions,
-               "Numbers and formulas by name, for other formulas; each may use the varied values and those above it.")
+          .key(
+              "definitions", &Sweep::definitions,
+              "Named numbers and formulas for use in formulas; each may use the varied values and earlier definitions.")
           .key("vary", &Sweep::vary,
-               "Keys of the scene by path, or names of formulas, with their values: a list, {from, to, count, scale, "
-               "unit}, {values, unit}, or named sets of keys {name: {path: value}}.",
+               "Keys of the scene by path, or names used in formulas, with their values: a list, {from, to, count, "
+               "scale, unit}, {values, unit}, or named sets of keys {name: {path: value}}.",
                {.required = true})
           .key("combine", &Sweep::combine,
-               "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
-               "points, each value's range in as many strata.")
-          .key("samples", &Sweep::samples, "Points of a Latin hypercube; default 50.", {.range = {1, kMostPoints}})
+               "cartesian: all combinations. zip: first values together, second values together, and so on. "
+               "latin_hypercube: `samples` points, one in each stratum of every variable.")
+          .key("samples", &Sweep::samples, "Number of points of a Latin hypercube; default 50.",
+               {.range = {1, kMostPoints}})
           .key("seed", &Sweep::seed, "Seed of a Latin hypercube; default 1.")
-          .key("quantities", &Sweep::quantities, "What is computed for every point, by name.", {.required = true})
-          .key("plots", &Sweep::plots, "Metrics of the report; default by the number of variables.")
-          .key("frames", &Sweep::frames, "A picture of each point, side by side.")
+          .key("quantities", &Sweep::quantities, "Metrics of every point, by name.", {.required = true})
+          .key("plots", &Sweep::plots, "Plots of the report; default by the number of variables.")
+          .key("frames", &Sweep::frames, "Show pictures of the points side by side.")
           .key("impossible", &Sweep::impossible,
-               "Points whose scene is impossible (an unstable material). stop: an error before anything runs. keep: "
-               "they stay in the table, with the reason.")
-          .key("limits", &Sweep::limits, "Limits of each point.")
+               "Treatment of points with an invalid scene, such as an unstable material. stop: an error before "
+               "anything runs. keep: the table lists them with the reason.")
+          .key("limits", &Sweep::limits, "Wall time and memory limits of each point.")
           .check(check_sweep);
   return s;
 }

@@ -1,4 +1,4 @@
-// A sweep, as its YAML file says it: one scene, what is varied in it, and the metrics that are wanted of every point.
+// A sweep as declared in its YAML file: a scene, the variables, and the metrics of every point.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@
 
 namespace orthodyn {
 
-// How the values of several variables make points.
+// How the values of several variables are combined into points.
 enum class Combine { cartesian, zip, latin_hypercube };
-// What to do about points whose scene cannot be.
+// Treatment of points with an invalid scene.
 enum class Impossible { stop, keep };
 
 template <>
@@ -23,20 +23,20 @@ struct EnumNames<Combine> {
       {{Combine::cartesian, "cartesian"}, {Combine::zip, "zip"}, {Combine::latin_hypercube, "latin_hypercube"}}};
 };
 
-// A picture of each point.
+// Pictures of the points.
 struct FrameSpec {
-  std::optional<double> at;  // s; default the end
+  std::optional<double> at;  // s; empty for the end
   std::string color = "displacement";
-  std::vector<double> view{-60, 20};
+  std::vector<double> view{-60, 20};  // azimuth and elevation, degrees
   std::string up = "z";
-  double enlarged = 1;
-  int most = 24;
+  double enlarged = 1;  // scale factor of the deformation
+  int most = 24;        // largest number of pictures
   bool ghost = true;
   SourceLocation origin;
   static const Spec<FrameSpec>& spec();
 };
 
-// A metric of the report; without any, it has what the number of variables suggests.
+// A plot of the report. Without plots, the report chooses them by the number of variables.
 struct PlotSpec {
   std::string metric, x, lines;
   static const Spec<PlotSpec>& spec();
@@ -46,9 +46,9 @@ struct Sweep {
   std::string name;  // the file's stem
   std::string title, description;
   SceneEntry scene;
-  Named<YamlText> definitions;  // numbers and formulas
+  Named<YamlText> definitions;  // named numbers and formulas, for use in formulas
   Combine combine = Combine::cartesian;
-  std::optional<int> samples;  // of a Latin hypercube
+  std::optional<int> samples;  // number of points of a Latin hypercube
   std::optional<long> seed;
   std::vector<Variable> vary;
   Named<WantedMetric> quantities;
@@ -60,11 +60,11 @@ struct Sweep {
   static const Spec<Sweep>& spec();
 };
 
-// Throws ConfigError.
+// Reads and checks a sweep file. Throws ConfigError.
 Sweep read_sweep(const Config& config);
 
-// Each name and path must do something, mean one thing in formulas and head one column of the table. Throws
-// ConfigError, with both places where two things clash.
+// Checks that names and paths are used, unambiguous in formulas, and unique as columns of the table. Throws
+// ConfigError; for a conflict it names both places.
 void check_names(const Sweep& sweep);
 
 }  // namespace orthodyn

@@ -36,19 +36,19 @@ std::vector<Values> cartesian(const std::vector<Variable>& vary) {
   return all;
 }
 
-std::vector<Values> side_by_side(const std::vector<Variable>& vary) {
+std::vector<Values> zipped(const std::vector<Variable>& vary) {
   std::vector<Values> all(vary.front().values.size());
   for (std::size_t i = 0; i < all.size(); ++i)
     for (const auto& variable : vary) all[i].push_back(variable.values[i]);
   return all;
 }
 
-constexpr int kUsualSamples = 50;
+constexpr int kDefaultSamples = 50;
 
 std::vector<Values> sampled(const Sweep& sweep) {
   std::vector<Values> all;
-  for (const auto& shares : latin_hypercube(sweep.samples.value_or(kUsualSamples), static_cast<int>(sweep.vary.size()),
-                                            sweep.seed.value_or(1))) {
+  for (const auto& shares : latin_hypercube(sweep.samples.value_or(kDefaultSamples),
+                                            static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
     all.emplace_back();
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const Variable& v = sweep.vary[k];
@@ -62,7 +62,7 @@ std::vector<Values> sampled(const Sweep& sweep) {
 std::vector<Values> combined(const Sweep& sweep) {
   switch (sweep.combine) {
     case Combine::cartesian: return cartesian(sweep.vary);
-    case Combine::zip: return side_by_side(sweep.vary);
+    case Combine::zip: return zipped(sweep.vary);
     case Combine::latin_hypercube: break;
   }
   return sampled(sweep);
@@ -81,13 +81,13 @@ class Expansion {
  public:
   explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_scene_text(sweep.scene.file)) {}
 
-  // Before the first point, which may have the angle 0.
+  // Called before any point is read, because the first point may have the angle 0, which needs no unit.
   void require_units_of_angles() const {
     Config config = Config::from_text(scene_, sweep_.scene.file.path);
     for (const auto& [path, value] : sweep_.scene.set) assign(config, path, value);
     for (const Variable& v : sweep_.vary)
       if (v.unit.empty() && !v.path.empty() && v.numeric() && unit_at(v.path, config) == "rad")
-        v.origin.fail("an angle needs a unit: give {..., unit: deg} or {..., unit: rad}");
+        v.origin.fail("an angle needs a unit: add unit: deg or unit: rad");
   }
 
   Config scene(const Values& values) const {
@@ -119,15 +119,15 @@ class Expansion {
                           fmt::format("{} (in {}{})", e.message(), point.title,
                                       e.fault() == InputFault::form
                                           ? ""
-                                          : "; with impossible: keep the sweep continues without such points"));
+                                          : "; with impossible: keep, the sweep continues without such points"));
     }
     if (scene) check_times(*scene, point.title);
-    if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
+    if (scene && !are_quantities_checked_) try_to_check_quantities(*scene);
     return point;
   }
 
-  // Why the first of the scenes so far could not be built, if none could.
-  const std::string& no_body() const { return no_body_; }
+  // If no scene could be built so far: the error of the first one; else "".
+  const std::string& build_error() const { return build_error_; }
 
  private:
   FormulaScope scope_of(const Values& values) const {
@@ -141,14 +141,14 @@ class Expansion {
     return scope;
   }
 
-  // In SI units: of "0.84 GPa" or of a formula.
+  // SI value of a quantity such as "0.84 GPa" or of a formula.
   static double number_of(const YamlText& value, const FormulaScope& scope) {
     const Config given = parsed(value);
     if (!given.is_scalar()) value.origin.fail("expected a number or a formula, found " + given.shown());
     const auto parts = split_quantity(given.text());
     try {
       if (parts) return parts->number * si_factor(parts->unit);
-    } catch (const std::invalid_argument&) {  // then it is a formula
+    } catch (const std::invalid_argument&) {  // not a unit: evaluated as a formula
     }
     return scope.evaluate(given.text(), value.origin.where);
   }
@@ -159,86 +159,87 @@ class Expansion {
     for (const auto& [path, value] : assignments) {
       const Config given = parsed(value);
       assign(config, path, {scope.resolved(given, value.origin.where), value.origin});
-      give_radians(config, path, given, scope, value.origin);
+      add_radians(config, path, given, scope, value.origin);
     }
   }
 
-  // The values of formulas are SI: those of angles get the unit that the scene asks for.
-  static void give_radians(Config& config, const std::string& path, const Config& given, const FormulaScope& scope,
-                           const SourceLocation& origin) {
+  // Formulas give SI values. Because angles in a scene need a unit, the result of a formula for an angle gets "rad".
+  static void add_radians(Config& config, const std::string& path, const Config& given, const FormulaScope& scope,
+                          const SourceLocation& origin) {
     if (given.is_sequence())
       for (std::size_t i = 0; i < given.size(); ++i)
-        give_radians(config, fmt::format("{}.{}", path, i), given.at(i), scope, origin);
+        add_radians(config, fmt::format("{}.{}", path, i), given.at(i), scope, origin);
     if (given.is_map())
-      for (const auto& key : given.keys()) give_radians(config, path + "." + key, given.at(key), scope, origin);
+      for (const auto& key : given.keys()) add_radians(config, path + "." + key, given.at(key), scope, origin);
     if (!given.is_scalar() || !given.text().starts_with("=") || unit_at(path, config) != "rad") return;
     const double angle = scope.evaluate(given.text().substr(1), origin.where);
     if (std::abs(angle) > 2 * std::numbers::pi && !mentions(given.text(), "pi"))
       origin.fail(
-          fmt::format("the formula '{}' gives {:.6g} rad, for formulas see and give SI units; if degrees are "
-                      "meant, give its variables the unit deg, or multiply by pi/180",
+          fmt::format("the formula '{}' gives {:.6g} rad: formulas use SI units; if degrees are meant, give its "
+                      "variables the unit deg, or multiply by pi/180",
                       given.text().substr(1), angle));
     assign(config, path, {number_text(angle) + " rad", origin});
   }
 
-  // Of every point: its time span may be varied.
+  // Checked for every point, because the time span may be varied.
   void check_times(const Scene& scene, const std::string& title) const {
     const bool is_static = scene.is_static();
     const auto require = [&](const std::optional<double>& at, const std::string& place) {
       if (at && (*at < scene.time.start || *at > scene.time.end))
-        throw ConfigError(place, fmt::format("{} s is outside of the time span of '{}', which is {} to {} s", *at,
-                                             title, scene.time.start, scene.time.end));
+        throw ConfigError(place, fmt::format("{} s is outside the time span of '{}', {} to {} s", *at, title,
+                                             scene.time.start, scene.time.end));
     };
-    for (const auto& [name, f] : sweep_.quantities) {
-      if (f.quantity.empty()) continue;
-      if (!is_static) require(f.at, f.origin.where + ".at");
-      else if (f.at || f.take != Take::end || f.settled_within || f.quantity == kEnergyBalance)
-        f.origin.fail(
-            "a static analysis knows only values in equilibrium: remove 'take', 'at' and "
-            "'settled_within', choose another quantity than energy.balance");
+    for (const auto& [name, m] : sweep_.quantities) {
+      if (m.quantity.empty()) continue;
+      if (!is_static) require(m.at, m.origin.where + ".at");
+      else if (m.at || m.take != TimeReduction::end || m.settled_within || m.quantity == kEnergyBalance)
+        m.origin.fail(
+            "a static analysis has only values in equilibrium: remove 'take', 'at' and 'settled_within', or choose "
+            "another quantity than energy.balance");
     }
     if (!sweep_.frames || !sweep_.frames->at) return;
     if (is_static) sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
     require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
   }
 
-  // In the first scene that can be built. One that cannot be is a point that fails, and says why.
-  void try_to_look_up_quantities(const Scene& scene) {
+  // Checks the quantities in the first scene that can be built. A scene that cannot be built fails as a point.
+  void try_to_check_quantities(const Scene& scene) {
     const auto wants = [](const auto& q) { return !q.second.quantity.empty(); };
-    is_looked_up_ = std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants);
-    if (is_looked_up_) return;
+    are_quantities_checked_ = std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants);
+    if (are_quantities_checked_) return;
     std::optional<BuiltScene> built;
     try {
       built = build(scene);
     } catch (const ConfigError& e) {
       if (sweep_.impossible == Impossible::stop) throw;
-      if (no_body_.empty()) no_body_ = e.what();
+      if (build_error_.empty()) build_error_ = e.what();
       return;
     }
-    is_looked_up_ = true;
-    no_body_.clear();
-    look_up_quantities(scene, *built->model);
+    are_quantities_checked_ = true;
+    build_error_.clear();
+    check_quantities(scene, *built->model);
   }
 
-  void look_up_quantities(const Scene& scene, const FemModel& model) const {
-    for (const auto& [name, f] : sweep_.quantities) {
-      if (f.quantity.empty()) continue;
-      const Quantity q = find_quantity(f.quantity, scene, model, f.origin);
-      f.check_unit(q.unit);
-      if (q.components() > 1 && !(q.is_vector() && f.take == Take::drift)) f.origin.fail(q.ask_for_component());
+  void check_quantities(const Scene& scene, const FemModel& model) const {
+    for (const auto& [name, m] : sweep_.quantities) {
+      if (m.quantity.empty()) continue;
+      const Quantity q = find_quantity(m.quantity, scene, model, m.origin);
+      m.check_unit(q.unit);
+      if (q.components() > 1 && !(q.is_vector() && m.take == TimeReduction::drift))
+        m.origin.fail(q.ask_for_component());
     }
   }
 
   const Sweep& sweep_;
   std::string scene_;
-  bool is_looked_up_ = false;
-  std::string no_body_;
+  bool are_quantities_checked_ = false;
+  std::string build_error_;
 };
 
 }  // namespace
 
 double number_of_points(const Sweep& sweep) {
-  if (sweep.combine == Combine::latin_hypercube) return sweep.samples.value_or(kUsualSamples);
+  if (sweep.combine == Combine::latin_hypercube) return sweep.samples.value_or(kDefaultSamples);
   if (sweep.combine == Combine::zip) return static_cast<double>(sweep.vary.front().values.size());
   double points = 1;
   for (const auto& variable : sweep.vary) points *= static_cast<double>(variable.values.size());
@@ -258,7 +259,8 @@ std::vector<Point> expand(const Sweep& sweep) {
   if (std::all_of(points.begin(), points.end(), [](const Point& p) { return !p.impossible.empty(); }))
     throw ConfigError("none of the points can be computed; the first, " + points.front().title + ": " +
                       points.front().impossible);
-  if (!expansion.no_body().empty()) throw ConfigError("none of the points can be computed; " + expansion.no_body());
+  if (!expansion.build_error().empty())
+    throw ConfigError("none of the points can be computed; " + expansion.build_error());
   return points;
 }
 

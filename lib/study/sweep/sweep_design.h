@@ -1,4 +1,4 @@
-// From a sweep to its points: every scene as it will be computed, and what the closed forms say of it.
+// The points of a sweep: their scenes and the values of the closed forms.
 #pragma once
 
 #include <string>
@@ -13,17 +13,18 @@ struct Point {
   std::vector<VariedValue> values;  // by variable
   std::string title;                // "angle 30 deg, mesh fine"
   PointScene scene;
-  std::string impossible;            // why the scene cannot be; "" if it can
-  std::vector<double> closed_forms;  // by quantity; NaN for none
+  std::string impossible;            // error of an invalid scene; else ""
+  std::vector<double> closed_forms;  // by metric; NaN for a metric without a closed form
 };
 
-// How many expand() would make.
+// Number of points that expand() would make, without making them.
 double number_of_points(const Sweep& sweep);
 
-// The scene of the first point, with the places of its keys. Throws ConfigError.
+// The scene of the first point. Its keys know their places, for error messages. Throws ConfigError.
 Config first_scene(const Sweep& sweep);
 
-// Every scene is read and checked, and the first one's quantities are looked up in its model. Throws ConfigError.
+// Makes all points. Reads and checks every scene, and checks the quantities in the first scene that can be built.
+// Throws ConfigError.
 std::vector<Point> expand(const Sweep& sweep);
 
 }  // namespace orthodyn::study::sweep

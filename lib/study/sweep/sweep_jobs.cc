@@ -1,9 +1,9 @@
-#include "lib/study/sweep/sweep_jobs.h"
-
+// The jobs of a sweep, one per point.
 #include <algorithm>
 #include <set>
 
 #include "lib/study/points/evaluation.h"
+#include "lib/study/sweep/sweep_table.h"
 
 namespace orthodyn::study::sweep {
 

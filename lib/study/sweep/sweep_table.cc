@@ -13,7 +13,7 @@ namespace orthodyn::study::sweep {
 
 namespace {
 
-// Numbers without a unit are in that of their key, as the first scene that can be says.
+// A variable without a unit gets the unit of its key in the first valid scene.
 Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
   const auto first = std::find_if(points.begin(), points.end(), [](const auto& p) { return p.impossible.empty(); });
   Json all = Json::array();
@@ -28,26 +28,27 @@ Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
   return all;
 }
 
-// An exposure itself, not when or how often it is one.
-bool fails_at_one(const WantedMetric& f) {
-  const bool is_value = f.take == Take::end || f.take == Take::max || f.take == Take::min || f.take == Take::mean;
-  return is_exposure(f.quantity) && is_value && !f.settled_within;
+// True if the metric is a value of a failure criterion, which means failure at 1; false for its time or frequency.
+bool fails_at_one(const WantedMetric& m) {
+  const bool is_value = m.take == TimeReduction::end || m.take == TimeReduction::max || m.take == TimeReduction::min ||
+                        m.take == TimeReduction::mean;
+  return is_failure_criterion(m.quantity) && is_value && !m.settled_within;
 }
 
-// The unit that people see, and what one of it is in SI.
+// `unit` is for display; `factor` converts it to SI.
 Json metrics_json(const Sweep& sweep, const std::map<std::string, std::string>& units) {
   Json all = Json::array();
-  for (const auto& [name, f] : sweep.quantities) {
+  for (const auto& [name, m] : sweep.quantities) {
     const auto found = units.find(name);
     const std::string si = found == units.end() ? "" : found->second;
     all.push_back({{"name", name},
-                   {"title", f.title.empty() ? name : f.title},
-                   {"unit", f.unit.empty() ? si : f.unit},
-                   {"factor", f.unit.empty() ? 1 : si_factor(f.unit)},
-                   {"scale", Value<Scale>::yaml(f.scale)},
-                   {"closed_form", f.closed_form},
-                   {"has_own_error", !f.is_of_motion()},
-                   {"fails_at_one", fails_at_one(f)}});
+                   {"title", m.title.empty() ? name : m.title},
+                   {"unit", m.unit.empty() ? si : m.unit},
+                   {"factor", m.unit.empty() ? 1 : si_factor(m.unit)},
+                   {"scale", Value<Scale>::yaml(m.scale)},
+                   {"closed_form", m.closed_form},
+                   {"has_own_error", m.mode || m.along},
+                   {"fails_at_one", fails_at_one(m)}});
   }
   return all;
 }
@@ -70,7 +71,7 @@ Json frames_json(const Sweep& sweep) {
           {"ghost", f.ghost}};
 }
 
-// Nothing of a point that is missing.
+// Empty for a missing point.
 std::optional<EvaluationResult> result_of(const Point& point, const std::optional<Job>& job, const Results& results) {
   if (!job) {
     EvaluationResult impossible;
@@ -150,12 +151,7 @@ Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std:
 
 namespace {
 
-// "angle [deg]"
-std::string heading(const Json& column) {
-  const std::string unit = column.at("unit");
-  return column.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
-}
-
+// A number in SI converted to the unit of which `factor` is the SI value; anything else unchanged.
 Json divided(const Json& x, double factor) { return x.is_number() ? Json(x.get<double>() / factor) : x; }
 
 Json difference(const Json& x, const Json& reference) {
@@ -168,23 +164,28 @@ constexpr std::pair<const char*, const char*> kCosts[] = {
 
 bool has_metric(const Json& table, const std::string& name) {
   const Json& metrics = table.at("metrics");
-  return std::any_of(metrics.begin(), metrics.end(), [&](const Json& f) { return f.at("name") == name; });
+  return std::any_of(metrics.begin(), metrics.end(), [&](const Json& m) { return m.at("name") == name; });
 }
 
 std::string csv_head(const Json& table) {
   std::string out = "point";
-  for (const auto& v : table.at("variables")) out += "," + csv_cell(heading(v));
-  for (const auto& f : table.at("metrics")) {
-    out += "," + csv_cell(heading(f));
-    if (f.at("has_own_error")) out += "," + csv_cell(f.at("name").get<std::string>() + ".mesh_error");
-    if (f.at("closed_form") == "") continue;
-    Json closed = f;
-    closed["name"] = f.at("name").get<std::string>() + ".closed_form";
-    out += "," + csv_cell(heading(closed)) + "," + csv_cell(f.at("name").get<std::string>() + ".relative_difference");
+  const auto add = [&](const Json& named, const char* ending = "") {
+    out += "," + csv_cell(csv_heading(named.at("name").get<std::string>() + ending, named.at("unit")));
+  };
+  const auto add_number = [&](const Json& metric, const char* ending) {
+    out += "," + csv_cell(metric.at("name").get<std::string>() + ending);
+  };
+  for (const auto& variable : table.at("variables")) add(variable);
+  for (const auto& metric : table.at("metrics")) {
+    add(metric);
+    if (metric.at("has_own_error")) add_number(metric, ".mesh_error");
+    if (metric.at("closed_form") == "") continue;
+    add(metric, ".closed_form");
+    add_number(metric, ".relative_difference");
   }
   out += ",status,reason,message";
-  for (const auto& [cost, heading] : kCosts)
-    if (!has_metric(table, cost)) out += std::string(",") + heading;
+  for (const auto& [cost, title] : kCosts)
+    if (!has_metric(table, cost)) out += std::string(",") + title;
   return out + ",mesh_error,warnings,unknowns,folder\n";
 }
 
@@ -198,17 +199,17 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
   std::string out = std::to_string(number);
   const auto add = [&](const Json& value) { out += "," + csv_cell(value); };
   for (const auto& v : table.at("variables")) add(point.at("values").at(v.at("name").get<std::string>()));
-  for (const auto& f : table.at("metrics")) {
-    const std::string name = f.at("name");
+  for (const auto& m : table.at("metrics")) {
+    const std::string name = m.at("name");
     const Json &value = point.at("metrics").at(name), &closed = point.at("closed_forms").at(name);
-    add(divided(value, f.at("factor")));
-    if (f.at("has_own_error")) add(point.at("metric_errors").at(name));
-    if (f.at("closed_form") == "") continue;
-    add(divided(closed, f.at("factor")));
+    add(divided(value, m.at("factor")));
+    if (m.at("has_own_error")) add(point.at("metric_errors").at(name));
+    if (m.at("closed_form") == "") continue;
+    add(divided(closed, m.at("factor")));
     add(difference(value, closed));
   }
   for (const char* key : {"status", "reason", "message"}) add(point.at(key));
-  for (const auto& [cost, heading] : kCosts)
+  for (const auto& [cost, title] : kCosts)
     if (!has_metric(table, cost)) add(member(point.at("cost"), cost));
   add(point.at("mesh_error"));
   add(joined(point.at("warnings")));

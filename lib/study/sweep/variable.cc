@@ -19,8 +19,8 @@ bool is_path(const std::string& key) {
   return key.find('.') != std::string::npos || std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// The last step, with the indices after it: "young.0".
-std::string usual_name(const std::string& path) {
+// The last key with its indices: "young.0".
+std::string default_name(const std::string& path) {
   std::size_t begin = path.size();
   do {
     begin = begin == 0 ? 0 : path.rfind('.', begin - 1);
@@ -29,12 +29,12 @@ std::string usual_name(const std::string& path) {
   return path.substr(begin + 1);
 }
 
-// "30" as it stands in a scene: "30 deg".
+// "30 deg"
 std::string with_unit(double number, const std::string& unit) {
   return number_text(number) + (unit.empty() ? "" : " " + unit);
 }
 
-std::vector<double> divided(const NumberRange& r) {
+std::vector<double> values_of(const NumberRange& r) {
   const int n = r.count.value_or(0);
   std::vector<double> out;
   for (int i = 0; i < n; ++i) out.push_back(range_at(r, n == 1 ? 0 : static_cast<double>(i) / (n - 1)));
@@ -49,7 +49,7 @@ bool is_unit(const std::string& unit) {
   }
 }
 
-void take_name(const std::string& name, const Config& c, Variable& v) {
+void set_name(const std::string& name, const Config& c, Variable& v) {
   if (name.empty()) return;
   check_formula_name(name, c.at("name"));
   v.name = name;
@@ -59,27 +59,25 @@ void read_range(const Config& c, Variable& v) {
   const NumberRange r = read_number_range(c);
   v.unit = r.unit;
   v.scale = r.scale;
-  take_name(r.name, c, v);
+  set_name(r.name, c, v);
   v.range = r;
-  for (const double x : divided(r)) v.values.push_back(v.at(x));
+  for (const double x : values_of(r)) v.values.push_back(v.at(x));
 }
 
-// A scalar of a list: a number, or anything that a key of the scene can be.
+// An entry of a list: a number, or any value that the scene key may have.
 VariedValue listed_value(const Variable& v, const Config& c) {
   if (c.is_scalar() && c.reads_as_number()) return v.at(c.number());
   const auto number = c.is_scalar() && !v.unit.empty() ? number_in(c.text(), v.unit) : std::nullopt;
   if (v.path.empty() && number) return v.at(*number);
   if (v.path.empty())
-    c.fail("'" + v.name + "' is no key of a scene" + scene_key_near(v.name) +
-           ", so its values must be numbers for "
-           "formulas; found " +
-           c.shown());
+    c.fail("'" + v.name + "' is not a key of a scene" + scene_key_near(v.name) +
+           ", so its values must be numbers for formulas; found " + c.shown());
   VariedValue value{number ? number_text(*number) : c.is_scalar() ? c.text() : c.yaml(), number, {}, {}};
   value.set.emplace_back(v.path, Value<YamlText>::read(c, {}));
   return value;
 }
 
-// The unit of the first value that has one of its own.
+// Unit of the first value with its own unit; "" if none has one.
 std::string unit_in(const Config& list) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list.at(i).is_scalar()) continue;
@@ -95,18 +93,19 @@ void read_list(const Config& list, Variable& v) {
     for (std::size_t i = 0; i < list.size() && !v.unit.empty(); ++i)
       if (list.at(i).reads_as_number())
         list.at(i).fail(
-            "has no unit, but another value has; give one to all of them, or as {values: [...], unit: " + v.unit + "}");
+            "has no unit, but another value has one; give all of them a unit, or write {values: [...], unit: " +
+            v.unit + "}");
   }
   for (std::size_t i = 0; i < list.size(); ++i) v.values.push_back(listed_value(v, list.at(i)));
 }
 
-// {name: {path: value}}; what is no path is a variable of formulas.
+// Reads {name: {path: value}}. A key that is not a path names a number for formulas.
 void read_sets(const Config& c, Variable& v) {
   if (v.path.find('.') != std::string::npos)
-    c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
+    c.fail("expected a list of values, {from, to, count} or {values}, found " + c.shown());
   for (const auto& label : c.keys()) {
     const Config set = c.at(label);
-    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has no name; give one for people to read");
+    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has a blank name; give the set a name");
     if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());
     VariedValue value{label, {}, {}, {}};
     for (const auto& key : set.keys()) {
@@ -123,13 +122,13 @@ void refuse_repeated_values(const Variable& v, const Config& c) {
   std::set<std::string> others;
   for (const auto& value : v.values)
     if (!(value.number ? numbers.insert(*value.number).second : others.insert(value.label).second))
-      c.fail("has the value " + value.label + " twice");
+      c.fail("lists the value " + value.label + " twice");
 }
 
 Variable read_variable(const std::string& key, const Config& c) {
   Variable v;
   v.path = is_path(key) ? key : "";
-  v.name = v.path.empty() ? key : usual_name(key);
+  v.name = v.path.empty() ? key : default_name(key);
   v.origin.where = c.where();
   if (c.is_sequence()) {
     read_list(c, v);
@@ -139,7 +138,7 @@ Variable read_variable(const std::string& key, const Config& c) {
     const ValueList list = ValueList::spec().read(c);
     check_unit(list.unit, c);
     v.unit = list.unit;
-    take_name(list.name, c, v);
+    set_name(list.name, c, v);
     read_list(c.at("values"), v);
   } else if (c.is_map()) {
     read_sets(c, v);
@@ -148,7 +147,7 @@ Variable read_variable(const std::string& key, const Config& c) {
     c.fail("expected a list, {from, to, count}, {values} or named sets of keys, found " + c.shown());
   }
   if (!v.range && v.values.empty()) c.fail("is empty; list the values");
-  // Formulas do not see the usual name of an entry of a list, which has a dot.
+  // The default name of a list entry has a dot, so formulas cannot use it.
   if (v.path.empty() || is_identifier(v.name)) check_formula_name(v.name, c);
   refuse_repeated_values(v, c);
   return v;
@@ -177,13 +176,14 @@ VariedValue Variable::at(double x) const {
 }
 
 std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const Rule&) {
-  if (!c.is_map() || c.size() == 0) c.fail("expected what is varied {path: values}, found " + c.shown());
+  if (!c.is_map() || c.size() == 0) c.fail("expected variables {path: values}, found " + c.shown());
   std::vector<Variable> all;
   for (const auto& key : c.keys()) {
     all.push_back(read_variable(key, c.at(key)));
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
       if (all[i].name == all.back().name)
-        c.at(key).fail("the name '" + all.back().name + "' is taken; give another: {values: [...], name: ...}");
+        c.at(key).fail("the name '" + all.back().name +
+                       "' is already used; choose another: {values: [...], name: ...}");
   }
   return all;
 }

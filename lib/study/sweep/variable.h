@@ -1,4 +1,4 @@
-// What a sweep varies, as the section `vary` says.
+// The variables of a sweep: its section `vary`.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// A number in a unit that is said elsewhere, or "10 MPa" with one of its own.
+// A number with its own unit, "10 MPa", or without one.
 struct Amount {
   double number = 0;
   std::string unit;
@@ -26,16 +26,16 @@ struct Value<Amount> {
   static std::string yaml(const Amount&) { return ""; }
 };
 
-// Evenly spaced numbers: neighbours have the same difference, or the same ratio (scale: log).
+// Evenly spaced numbers: constant difference, or constant ratio with scale: log.
 struct NumberRange {
   Amount from, to;
-  std::optional<int> count;  // none in a Latin hypercube, which has its own
+  std::optional<int> count;  // empty in a Latin hypercube
   Scale scale = Scale::linear;
   std::string unit, name;
   static const Spec<NumberRange>& spec();
 };
 
-// From `from` at share 0 to `to` at share 1.
+// The number at `share` of the range: `from` at 0, `to` at 1.
 double range_at(const NumberRange& range, double share);
 
 struct ValueList {
@@ -44,36 +44,36 @@ struct ValueList {
   static const Spec<ValueList>& spec();
 };
 
-// Throws ConfigError at `at` for what is no unit; "" is none.
+// Throws ConfigError at `at` for an unknown unit; "" is allowed.
 void check_unit(const std::string& unit, const Config& at);
 
-// "10 MPa" as a number of the unit; nothing for a text that is no such quantity.
+// Converts "10 MPa" to the given unit; empty if the text is not a quantity of its dimension.
 std::optional<double> number_in(const std::string& text, const std::string& unit);
 
-// Reads a range, with both ends in one unit: that of the section, or else of `from`.
+// Reads a range and converts both ends to one unit: that of the section, otherwise that of `from`.
 NumberRange read_number_range(const Config& c);
 
-// One value of a variable. Numbers are SI in formulas, and in the variable's own unit where people see them.
+// One value of a variable. Numbers are in the variable's unit; formulas use SI.
 struct VariedValue {
-  std::string label;             // what people read: "30", "coarse"
+  std::string label;             // "30", "coarse"
   std::optional<double> number;  // in the variable's unit
-  Assignments set;               // keys of the scene; a text "=formula" stands for its value
-  Assignments let;               // further variables of formulas
+  Assignments set;               // scene keys; a text "=formula" is replaced by its value
+  Assignments let;               // further named numbers for formulas
 };
 
-// What is varied: a key of the scene by its path, or a name of which formulas make use, or named sets of keys.
+// A variable: a scene key by path, a name used in formulas, or named sets of keys.
 struct Variable {
-  std::string name;  // in formulas, tables and metrics
-  std::string path;  // "" for one that formulas use
+  std::string name;  // in formulas, tables and plots
+  std::string path;  // "" for a name or for sets of keys
   std::string unit;
   Scale scale = Scale::linear;
-  std::optional<NumberRange> range;  // of a Latin hypercube: not divided yet
+  std::optional<NumberRange> range;
   std::vector<VariedValue> values;
   SourceLocation origin;
 
-  bool numeric() const;
-  double si(double number) const;  // of a number in the variable's unit
-  VariedValue at(double number) const;
+  bool numeric() const;                 // true if every value is a number
+  double si(double number) const;       // from the variable's unit to SI
+  VariedValue at(double number) const;  // the value `number`, in the variable's unit
 };
 
 // The variables, in the order of the file.
@@ -84,7 +84,7 @@ struct Value<std::vector<Variable>> {
   static std::string yaml(const std::vector<Variable>&) { return ""; }
 };
 
-// The keys at the top of a scene: what tells a path from a name of formulas.
+// Top-level keys of a scene, which distinguish paths from names used in formulas.
 std::vector<std::string> scene_keys();
 
 // "; did you mean 'gravity'?", or "".

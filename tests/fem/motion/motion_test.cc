@@ -1,4 +1,4 @@
-// Prescribed motion: its kinematics, what the free coordinates feel of it, reactions and energy.
+// Prescribed motion: kinematics, effect on the free coordinates, reactions and energy.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirDisplacements) {
   }
 }
 
-// No resolution is given: the step of the differences must suit fast and slow motions, and a pulse after a long rest.
+// Without `resolution` the difference step must suit fast and slow motions, and a pulse after a long rest.
 TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
   const NodalVector X = some_points();
   for (const double T : {1e-9, 1e-3, 1.0, 1e6}) {
@@ -65,10 +65,10 @@ TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
 }
 
 TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
-  const auto motion = read_motion(
-                          "{surface: x1, rotation: {point: [1, 0, 0], axis: [0, 0, 5], angle: 450 deg}, "
-                          "factor: {type: constant}}")
-                          .motion(0, 2, some_points());
+  const auto motion =
+      read_motion(
+          "{surface: x1, rotation: {point: [1, 0, 0], axis: [0, 0, 5], angle: 450 deg}, factor: {type: constant}}")
+          .motion(0, 2, some_points());
   NodalVector X(3, 2);
   X << 2, 1, 0, 0, 7, -1;
   const Moved moved = motion->at(0, X);
@@ -78,10 +78,10 @@ TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
 }
 
 TEST(RigidMotion, ByASmallAngleHasAllDigits) {
-  const auto motion = read_motion(
-                          "{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, "
-                          "factor: {type: constant}}")
-                          .motion(0, 2, some_points());
+  const auto motion =
+      read_motion(
+          "{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, factor: {type: constant}}")
+          .motion(0, 2, some_points());
   NodalVector X(3, 1);
   X << 3, 4, 0;
   const Vec3 expected(-4e-9 - 1.5e-18, 3e-9 - 2e-18, 0);  // angle x r - angle^2 r/2
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, MovedBody,
                                                  "damping: {mass: 0.7, stiffness: 0.1}\ngravity: [1, 2, 3]"}),
                          [](const auto& tested) { return tested.param.name; });
 
-// A state of the moved body and the same of the body whose nodes are all unknowns.
+// The same state of the moved body and of a body whose nodes are all unknowns.
 struct Both {
   Both(const BuiltTestScene& moved, const BuiltTestScene& free, Random& random)
       : q(random_dofs(random, moved.size(), 0.05)),

@@ -1,4 +1,4 @@
-// Forces on nodes from a file: which node gets which, and what is refused with its line.
+// Nodal forces from a file: assignment to nodes, and error messages with line numbers.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST_F(NodalForcesOfAFile, AreRefusedWithoutClearColumns) {
   EXPECT_TRUE(holds(refused("node,x,y,z,fx,fy,fz\n0,0,0,0,1,2,3\n"), "give node,fx,fy,fz or x,y,z,fx,fy,fz"));
   EXPECT_TRUE(holds(refused("node,fx,fy\n0,1,2\n"), ".csv:1: column 'fz' is missing"));
   EXPECT_TRUE(holds(refused("node,fx,fy,fz\n"), "no rows of numbers"));
-  EXPECT_TRUE(holds(refused("node,fx,fy,fz\n0,1,2,3\n", ", tolerance: 1"), "tolerance goes with the columns x,y,z"));
+  EXPECT_TRUE(holds(refused("node,fx,fy,fz\n0,1,2,3\n", ", tolerance: 1"), "the columns x,y,z only"));
 }
 
 }  // namespace

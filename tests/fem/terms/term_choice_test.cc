@@ -1,4 +1,4 @@
-// What the terms of a scene say of themselves: their names, and what integrators must know of the model.
+// Names and traits of the terms of a scene.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ struct Declared {
 };
 void PrintTo(const Declared& d, std::ostream* os) { *os << d.name; }
 
-// Of a clamped body with linear kinematics, in the order of struct Traits.
+// Traits of a clamped body with linear kinematics, in the order of struct Traits.
 std::string traits_text(const Traits& t) {
   std::string text;
   const auto add = [&](bool differs, const char* what) {
@@ -78,7 +78,7 @@ TEST_P(DeclaredTraits, AreThoseOfTheForce) {
   EXPECT_EQ(traits_text(with(GetParam().keys).model().traits()), GetParam().traits);
 }
 
-// In the order of the sums, which results hang on to the last digit: gravity, loads, terms.
+// Order of summation, which determines the last digits of results: gravity, loads, terms.
 TEST(TermNames, SayWhatEachIsAndOnWhat) {
   const auto scene = with(R"(
 terms:
@@ -92,8 +92,8 @@ loads: [{surface: x1, force: [1, 0, 0]}]
 gravity: [0, 0, -9]
 )");
   const std::vector<std::string> expected = {
-      "gravity",        "traction on x1", "springs",        "dashpots",
-      "ground_contact", "point load",     "pressure on x1", "pressure on the whole outer surface"};
+      "gravity", "traction on x1", "springs",        "dashpots",
+      "ground",  "point load",     "pressure on x1", "pressure on the whole outer surface"};
   const auto& terms = scene.model().parts().loads;
   ASSERT_EQ(terms.size(), expected.size());
   for (std::size_t k = 0; k < terms.size(); ++k) {

@@ -1,5 +1,5 @@
-// Springs, dashpots, point loads, pressure and ground: force against energy, K and D against the force by the
-// observed order of differences, what they dissipate, and what must vanish.
+// Springs, dashpots, point loads, pressure and ground contact: force against energy, K and D against the force by the
+// observed order of differences, dissipation, and quantities that must vanish.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -218,10 +218,9 @@ TEST(Pressure, ThatIsDeadKeepsItsDirectionAndIsThatOfRest) {
 
 TEST(Pressure, ByAFormulaIsThatOfThePlaceAtRest) {
   for (const char* follows : {"true", "false"}) {
-    const auto s =
-        block(fmt::format("{{type: pressure, surface: x1, pressure: y^2*z, follows: {}, "
-                          "factor: {{type: constant, value: 3}}}}",
-                          follows));
+    const auto s = block(fmt::format(
+        "{{type: pressure, surface: x1, pressure: y^2*z, follows: {}, factor: {{type: constant, value: 3}}}}",
+        follows));
     const NodalVector f = s.nodal(s.force(s.zero())), x = s.positions(s.zero());
     EXPECT_NEAR(f.row(0).sum(), -3 * (1. / 3) * (1. / 2), 1e-13);
     EXPECT_NEAR(f.row(0).dot(x.row(1)), -3 * (1. / 4) * (1. / 2), 1e-13);
@@ -230,7 +229,7 @@ TEST(Pressure, ByAFormulaIsThatOfThePlaceAtRest) {
   }
 }
 
-// Water around a body buoys it up by the weight of its volume of water: divergence theorem.
+// Hydrostatic pressure causes a buoyancy equal to the weight of the displaced water: divergence theorem.
 TEST(Pressure, ThatGrowsWithDepthBuoysUp) {
   const auto s = block("{type: pressure, pressure: 4*(2 - z)}");
   EXPECT_LE((s.nodal(s.force(s.zero())).rowwise().sum() - Vec3(0, 0, 4)).norm(), 1e-13);

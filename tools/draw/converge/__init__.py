@@ -1,7 +1,5 @@
-"""One page and paper figures from convergence.json, what `orthodyn converge` has written."""
+"""One page and paper figures from convergence.json (`orthodyn converge`)."""
 from pathlib import Path
-
-FILE = "convergence.json"
 
 
 def write_convergence_report(result, out=None):
@@ -9,9 +7,7 @@ def write_convergence_report(result, out=None):
     from .figures import write_paper_figures
     from .page import page
     from .reading import read_convergence
+    from ..view.beside import write_page
     study, folder = read_convergence(result), Path(result)
-    path = out or folder / "report.html"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(study, folder), encoding="utf-8")
-    yield path
+    yield write_page(out or folder / "report.html", lambda _: page(study, folder))
     yield from write_paper_figures(study, folder / "pictures")

@@ -1,12 +1,12 @@
-"""The page of a convergence study: one HTML file that opens without a network."""
+"""The page of a convergence study: one HTML file that opens offline."""
 import math
 import shlex
 
 from ..report import formatting
 from ..report.details import command, pairs
-from ..report.markup import Html, data_script, joined, scrolling, tag
-from ..report.page import SCRIPT, head
-from ..report.tables import caption, number
+from ..report.document import document, header, run_data, section, when
+from ..report.markup import joined, tag
+from ..report.tables import headed_table, number
 from .figures import Figures, words
 
 READ = ("Marks are meshes, each twice as fine as the one before; strokes are errors of the same mesh as it "
@@ -14,9 +14,9 @@ READ = ("Marks are meshes, each twice as fine as the one before; strokes are err
         "the uncertainty of the limit.")
 
 
-def _cheaper(figure, study):
-    """'quadratic elements by 12 ×', or which elements alone reach the target."""
-    costs = {o: c for o, c in figure.cost_of_target.items() if math.isfinite(c) and c > 0}
+def _cheaper(metric, study):
+    """'quadratic elements by 12 ×', or the only elements that reach the target."""
+    costs = {o: c for o, c in metric.cost_of_target.items() if math.isfinite(c) and c > 0}
     if not costs:
         return f"none reaches {100 * study.target:g} %"
     best, worst = min(costs, key=costs.get), max(costs, key=costs.get)
@@ -25,81 +25,80 @@ def _cheaper(figure, study):
         return f"{words(best)} elements; {others[0]} ones do not reach {100 * study.target:g} %"
     if len(costs) < 2:
         return formatting.UNKNOWN
-    bound = "at least " if best in figure.at_most else "at most " if worst in figure.at_most else ""
-    if {best, worst} <= figure.at_most:
+    bound = "at least " if best in metric.at_most else "at most " if worst in metric.at_most else ""
+    if {best, worst} <= metric.at_most:
         bound = "about "
     return f"{words(best)} elements by {bound}{costs[worst] / costs[best]:.2g} ×"
 
 
 def _seconds(seconds):
-    """Three digits: small meshes take less than a millisecond."""
+    """A time with three digits, because small meshes take less than a millisecond."""
     return formatting.general(seconds, 3) if math.isfinite(seconds) else formatting.UNKNOWN
 
 
-def _cost(figure, order):
-    cost = figure.cost_of_target.get(order, math.nan)
+def _cost(metric, order):
+    cost = metric.cost_of_target.get(order, math.nan)
     if not math.isfinite(cost):
         return "not reached"
-    return f"{'≤ ' if order in figure.at_most else ''}{_seconds(cost)}"
+    return f"{'≤ ' if order in metric.at_most else ''}{_seconds(cost)}"
 
 
-def _limit_of(figure):
-    return formatting.general(figure.limit, 7, figure.resolution)
+def _limit_of(metric):
+    return formatting.general(metric.limit, 7, metric.resolution)
 
 
-def _value(study, figure, mesh):
-    """With the digits that its error lets be known."""
-    return formatting.general(mesh.values.get(figure.name, math.nan), 7, study.known_error(figure, mesh))
+def _value(study, metric, mesh):
+    """The value with the digits that exceed its error."""
+    return formatting.general(mesh.values.get(metric.name, math.nan), 7, study.known_error(metric, mesh))
 
 
-def _answer_row(study, figure):
-    known = math.isfinite(figure.limit)
-    limit = f"{_limit_of(figure)} ± {figure.uncertainty:.1g}" if known else formatting.UNKNOWN
-    cells = [tag("th", figure.heading, scope="row"), tag("td", limit, class_="word")]
+def _answer_row(study, metric):
+    known = math.isfinite(metric.limit)
+    limit = f"{_limit_of(metric)} ± {metric.uncertainty:.1g}" if known else formatting.UNKNOWN
+    cells = [tag("th", metric.heading, scope="row"), tag("td", limit, class_="word")]
     for order in study.orders:
-        cells.append(number(_cost(figure, order)))
-    return tag("tr", *cells, tag("td", _cheaper(figure, study), class_="word"))
+        cells.append(number(_cost(metric, order)))
+    return tag("tr", *cells, tag("td", _cheaper(metric, study), class_="word"))
 
 
 def _table(title, heads, rows, label, kind=None):
     cells = [tag("th", text, scope="col", class_="num" if numeric else "word") for text, numeric in heads]
-    return scrolling(tag("table", caption(title), tag("thead", tag("tr", *cells)), tag("tbody", *rows), class_=kind),
-                     label=label)
+    return headed_table(title, cells, rows, label, kind)
 
 
 def _answer(study):
-    """A sentence of the first figure as the headline, of the others as a list; then all as a table."""
-    first, *others = [f.answer for f in study.figures]
+    """The first metric's sentence as the headline, the other sentences as a list, then a table."""
+    first, *others = [f.answer for f in study.metrics]
     return joined([tag("p", first, class_="headline"), tag("ul", *(tag("li", s) for s in others)) if others else None,
                    _limits(study)])
 
 
 def _limits(study):
-    heads = [("Figure", False), ("Limit", False)]
+    heads = [("Metric", False), ("Limit", False)]
     heads += [(f"{words(o)} [s]", True) for o in study.orders]
     heads.append(("Cheaper", False))
-    return _table(f"Limits of the figures, and the CPU time for an error of {100 * study.target:g} %", heads,
-                  [_answer_row(study, f) for f in study.figures], "Limits and costs")
+    return _table(f"Limits of the metrics, and the CPU time for an error of {100 * study.target:g} %", heads,
+                  [_answer_row(study, f) for f in study.metrics], "Limits and costs")
 
 
 def _row(study, mesh):
     cells = [tag("th", words(mesh.order), scope="row"), number(mesh.level), number(formatting.count(mesh.elements)),
              number(formatting.count(mesh.unknowns))]
-    for figure in study.figures:
-        order = mesh.orders.get(figure.name, math.nan)
-        cells += [number(_value(study, figure, mesh)),
-                  number(formatting.exponent(mesh.errors.get(figure.name, math.nan))),
+    for metric in study.metrics:
+        order = mesh.orders.get(metric.name, math.nan)
+        cells += [number(_value(study, metric, mesh)),
+                  number(formatting.exponent(mesh.errors.get(metric.name, math.nan))),
                   number(f"{order:.2f}" if math.isfinite(order) else formatting.UNKNOWN),
-                  number(formatting.exponent(mesh.mesh_errors.get(figure.name, math.nan))),
-                  number(_seconds(mesh.cpu_seconds.get(figure.name, math.nan)))]
+                  number(formatting.exponent(mesh.mesh_errors.get(metric.name, math.nan))),
+                  number(_seconds(mesh.cpu_seconds.get(metric.name, math.nan)))]
     cells += [tag("td", "" if mesh.status == "completed" else mesh.reason or mesh.status, class_="word")]
     return tag("tr", *cells, class_="failed" if mesh.status != "completed" else None)
 
 
 def _meshes(study):
     heads = [("Elements", False), ("level", True), ("number", True), ("unknowns", True)]
-    for figure in study.figures:
-        heads += [(text, True) for text in (figure.heading, "error", "observed order", "mesh error", "CPU [s]")]
+    for metric in study.metrics:
+        heads += [(text, True) for text in (metric.heading, "error", "observed order", "mesh error", "CPU [s]")]
     heads.append(("", False))
     return _table("All meshes; the same in convergence.csv", heads, [_row(study, m) for m in study.meshes],
                   "All meshes", "long")
@@ -127,7 +126,7 @@ def _details(study, folder):
 
 def _tip(study, mesh):
     rows = []
-    for f in study.figures:
+    for f in study.metrics:
         error = mesh.mesh_errors.get(f.name, math.nan)
         rows += [[f.heading, _value(study, f, mesh)]]
         rows += [[f"{f.name}, mesh error estimated", formatting.exponent(error)]] if math.isfinite(error) else []
@@ -135,20 +134,15 @@ def _tip(study, mesh):
 
 
 def page(study, folder):
-    figures = Figures(study)
-    pictures = [joined([tag("h3", f.heading) if len(study.figures) > 1 else None,
-                        tag("figure", tag("div", figures.of(f), class_="stage"),
-                            tag("figcaption", READ) if f is study.figures[0] else None, aria_label=f.name)])
-                for f in study.figures]
+    figures = Figures()
+    pictures = [joined([tag("h3", f.heading) if len(study.metrics) > 1 else None,
+                        tag("figure", tag("div", figures.of(study, f), class_="stage"),
+                            tag("figcaption", READ) if f is study.metrics[0] else None, aria_label=f.name)])
+                for f in study.metrics]
     parts = [("answer", "Result", _answer(study)), ("errors", "Errors", joined(pictures)),
              ("meshes", "Meshes", joined([_meshes(study), _failures(study)])),
              ("details", "Details", _details(study, folder))]
-    main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
-    counted = [f"{len(study.meshes)} meshes", study.about["written"].replace("T", " ").replace("Z", " UTC")]
     title = f"Convergence of {study.name}"
-    header = tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", title),
-                 tag("p", " · ".join(counted), class_="facts"),
-                 tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name, _ in parts), aria_label="Sections"))
-    runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(study, m) for m in study.meshes]})
-    body = tag("body", header, main, runs, tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
-    return "<!DOCTYPE html>\n" + tag("html", head(title, figures.styles.css()), body, lang="en") + "\n"
+    top = header(title, (f"{len(study.meshes)} meshes", when(study.about["written"])), [part[:2] for part in parts])
+    return document(title, figures.styles.css(), top, [section(*part) for part in parts],
+                    run_data([_tip(study, m) for m in study.meshes]))

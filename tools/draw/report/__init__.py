@@ -1,4 +1,4 @@
-"""One page and paper figures from compare.json, what `orthodyn compare` has written."""
+"""One page and paper figures from compare.json (`orthodyn compare`)."""
 from pathlib import Path
 
 
@@ -7,16 +7,15 @@ def write_report(result, out=None):
     from .figures import write_paper_figures
     from .page import page
     from .reading import read_comparison
-    from ..view.beside import with_view
+    from .view_source import view_source
+    from ..view.beside import with_view, write_page
     comparison, folder = read_comparison(result), Path(result)
     path = out or folder / "report.html"
-    path.parent.mkdir(parents=True, exist_ok=True)
 
-    def write(view=None):
-        path.write_text(page(comparison, folder, view), encoding="utf-8")
+    def report(view):
+        return page(comparison, folder, view)
 
-    write()
-    yield path
+    yield write_page(path, report)
     yield from write_paper_figures(comparison, folder / "pictures")
     has_frames = any((folder / point.scene).with_name("frames.pvd").is_file() for point in comparison.points)
-    yield from with_view(path, folder, has_frames, write)
+    yield from with_view(path, (lambda: view_source(folder)) if has_frames else None, report)

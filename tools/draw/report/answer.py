@@ -3,12 +3,12 @@ import math
 
 from . import measures, formatting
 from .comparable import main_target, representatives
-from .front_answer import front_answer
-from .markup import Html, joined, scrolling, tag
+from .pareto_front_answer import pareto_front_answer
+from .markup import Html, joined, tag
 from .method_name import method_name
-from .tables import caption
+from .tables import headed_table
 
-EQUAL = 1.1  # a ratio of times below it is hardly a difference
+EQUAL = 1.1  # smaller ratios of times are called equal
 
 
 def _with_percent(target, measure):
@@ -18,7 +18,7 @@ def _with_percent(target, measure):
 
 
 def _answers(comparison, problem):
-    """Answers of the first measure, loose targets first."""
+    """The problem's answers for the main error measure, loose targets first."""
     primary = measures.primary(comparison)
     return sorted((a for a in comparison.answers if a.problem == problem.id and a.error == primary and a.target > 0),
                   key=lambda a: -a.target)
@@ -30,12 +30,12 @@ def _main(comparison, problem):
 
 
 def _ranked(answer):
-    """(method, seconds) of those that reached the target, fastest first."""
+    """(method, seconds) of the methods that reached the target, fastest first."""
     return sorted(((m, s) for m, s in answer.seconds.items() if math.isfinite(s)), key=lambda pair: pair[1])
 
 
 def _missed(answer):
-    """Methods that did not reach the target, the nearest first, those without a finished run last."""
+    """The methods that missed the target, nearest first; those without a finished run come last."""
     def best(method):
         error = answer.best_error.get(method, math.nan)
         return error if formatting.known(error) else math.inf
@@ -73,7 +73,7 @@ def headline(comparison):
 
 
 def _fastest(comparison, problem):
-    """'a is fastest: 0.2 s; next is b with 0.3 s.'; methods within 10 % of each other are named together."""
+    """'a is fastest: 0.2 s; next is b with 0.3 s.' Methods within 10 % of each other are named together."""
     ranked = _ranked(_main(comparison, problem))
     equal = [pair for pair in ranked if pair[1] <= EQUAL * ranked[0][1]]
     names = formatting.joined(_label(comparison, method) for method, _ in equal)
@@ -106,14 +106,14 @@ def _nothing_reached(comparison):
 
 
 def _tightest(comparison, problem):
-    """The answer for the smallest error that several methods reach, where that is below the main one."""
+    """The answer for the smallest error that several methods reach, if below the main target."""
     main = _main(comparison, problem)
     found = [a for a in _answers(comparison, problem) if len(_ranked(a)) > 1 and main and a.target < main.target]
     return found[-1] if found else None
 
 
 def _quantities(comparison, problem):
-    """How far off the named quantities are in the fastest run that reaches the main target."""
+    """Sentence with the errors of the requested quantities, in the fastest run that reaches the main target."""
     measure = measures.primary(comparison)
     point = next((p for p, reached in representatives(comparison, problem) if reached), None)
     kind = measure.rsplit(".", 1)[-1]
@@ -127,7 +127,7 @@ def _quantities(comparison, problem):
 
 
 def sentence(comparison, problem, answer):
-    """To reach an error of 1e-3 on damped_beam: a 0.2 s, b 0.3 s; c did not reach it, best 3e-3."""
+    """'To reach an error of 1e-3 on damped_beam: a 0.2 s, b 0.3 s; c did not reach it, best 3e-3.'"""
     if not answer:
         return None
     ranked = _ranked(answer)
@@ -170,7 +170,7 @@ def _cell(answer, method):
 
 
 def table(comparison, problem):
-    """Methods by targets; rows in the order of the main target."""
+    """Table of methods (rows, ordered by their times for the main target) and targets (columns)."""
     answers = _answers(comparison, problem)
     if not answers:
         return None
@@ -181,14 +181,13 @@ def table(comparison, problem):
         tag("th", *_target_words(a), scope="col", class_="main" if a is main else None) for a in answers]
     rows = [tag("tr", tag("th", method_name(comparison, m), scope="row"), *(_cell(a, m) for a in answers))
             for m in order]
-    title = caption("Wall time to reach an error of …, and its ratio to the fastest; interpolated between runs. "
-                    f"Error: {measures.label(main.error)}.")
-    return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
-                     label=f"Times to reach an error on {problem.label}")
+    title = ("Wall time to reach an error of …, and its ratio to the fastest; interpolated between runs. "
+             f"Error: {measures.label(main.error)}.")
+    return headed_table(title, head, rows, f"Times to reach an error on {problem.label}", "targets")
 
 
 def overview(comparison):
-    """Methods by problems at the main target; methods in the order of their mean ratio to the fastest."""
+    """Table of methods and problems at the main target. Methods are ordered by their mean ratio to the fastest time."""
     found = [(p, _main(comparison, p)) for p in comparison.problems]
     found = [(problem, answer) for problem, answer in found if answer]
     if len(found) < 2:
@@ -197,15 +196,14 @@ def overview(comparison):
     head = [tag("th", "Method", scope="col"), *(tag("th", problem.label, scope="col") for problem, _ in found)]
     rows = [tag("tr", tag("th", method_name(comparison, m.id), scope="row"), *(_cell(a, m.id) for _, a in found))
             for m in sorted(comparison.methods, key=lambda m: _rank([a for _, a in found], m.id))]
-    title = caption(f"Wall time to reach an error of {target}, and its ratio to the fastest, on every problem. "
-                    f"Error: {measures.label(found[0][1].error)}.")
-    return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
-                     label="Times on every problem")
+    title = (f"Wall time to reach an error of {target}, and its ratio to the fastest, on every problem. "
+             f"Error: {measures.label(found[0][1].error)}.")
+    return headed_table(title, head, rows, "Times on every problem", "targets")
 
 
 def _rank(answers, method):
-    """(no run has finished, sum of the logarithms of the ratios to the fastest); a target that was not reached counts
-    as a factor of 1000."""
+    """Key for sorting: (no run finished, sum of the log ratios to the fastest times). A missed target counts as a ratio
+    of 1000."""
     total = 0.0
     for answer in answers:
         seconds, ranked = answer.seconds.get(method, math.nan), _ranked(answer)
@@ -227,8 +225,8 @@ ALIKE, LEAST_METHODS = 1.05, 3
 
 
 def _suspected(comparison, problem):
-    """Methods that all end at the same error, far from what is resolved, agree with each other and not with the
-    reference."""
+    """Warns that the reference is in doubt if all methods reach the same error, far above the smallest resolved error:
+    they then agree with each other but not with the reference."""
     measure = measures.primary(comparison)
     errors = [[p.error(measure) for p in comparison.finished(problem, m.id) if p.error(measure) > 0]
               for m in comparison.methods]
@@ -242,15 +240,15 @@ def _suspected(comparison, problem):
 
 
 def _scene(problem):
-    """What the scene shows, and what was changed in it."""
+    """The description of the scene, and the changes to the scene."""
     changes = ", ".join(f"{k} left out" if v in ("~", "null") else f"{k}: {v}" for k, v in problem.set.items())
     text = " ".join(part for part in (problem.sentence, f"Changed here: {changes}." if changes else "") if part)
     return tag("p", text, class_="scene") if text else None
 
 
 def answer_section(comparison):
-    if comparison.fronts:
-        return front_answer(comparison)
+    if comparison.pareto_fronts:
+        return pareto_front_answer(comparison)
     parts = [headline(comparison), tag("p", MEANING, class_="scene"), overview(comparison)]
     for problem in comparison.problems:
         size = f"{formatting.count(problem.unknowns)} unknowns" if formatting.known(problem.unknowns) else ""

@@ -1,10 +1,10 @@
-"""Which error the methods are compared at, and which run of each method stands for it."""
+"""The target error at which methods are compared, and the run that represents each method."""
 import math
 
 from . import measures
 
 USUAL = 1e-3
-AS_GOOD = 1.05  # an error above the target by a twentieth at most has reached it, as in the times
+AS_GOOD = 1.05  # an error up to 5 % above the target reaches it, as in the program (kTargetTolerance)
 
 
 def _distance(target):
@@ -12,7 +12,8 @@ def _distance(target):
 
 
 def main_target(comparison):
-    """The target error of the first words: near 1e-3, reached by at least half of those asked."""
+    """The main target error: the target nearest to 1e-3 that at least half of the methods reach, or failing that the
+    one that most methods reach. None without answers."""
     primary, reached, asked = measures.primary(comparison), {}, {}
     for answer in comparison.answers:
         if answer.error == primary and answer.target > 0:
@@ -27,7 +28,8 @@ def main_target(comparison):
 
 
 def _smallest_reachable(comparison, problem, measure):
-    """Without answers: 1e-3, or the power of ten that every method with a finished run reaches."""
+    """Target without answers: 1e-3, or the smallest larger power of ten that every method with a finished run
+    reaches."""
     best = [min((p.error(measure) for p in comparison.finished(problem, m.id) if math.isfinite(p.error(measure))),
                 default=math.nan) for m in comparison.methods]
     best = [b for b in best if b > 0]
@@ -39,8 +41,8 @@ def target_of(comparison, problem):
 
 
 def representatives(comparison, problem):
-    """(point, reached) per method with a finished run, fastest first: the cheapest run below the target,
-    else the most accurate one."""
+    """(point, reached) for each method with a finished run: its cheapest run that reaches the target, else its most
+    accurate run. Methods that reach the target come first, and within both groups the fastest."""
     measure, target, found = measures.primary(comparison), target_of(comparison, problem), []
     for method in comparison.methods:
         runs = [p for p in comparison.finished(problem, method.id) if math.isfinite(p.seconds())]

@@ -1,4 +1,4 @@
-"""A work-precision comparison as typed values; a number that is not known is nan, a text ''.
+"""A work-precision comparison as typed values; unknown numbers are nan, unknown texts ''.
 
 Errors have keys: displacement.l2, velocity.final, probes.tip.max, phase; see measures.py.
 """
@@ -7,21 +7,22 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-# An error below these multiples of the reference's own, in time and by its mesh, is not resolved.
+# Errors below these multiples of the reference's own time and mesh errors are not resolved.
 NEAR_REFERENCE, NEAR_ITS_MESH = 10.0, 2.0
 PARTS = ("force", "tangent", "factorization", "solve")
 
 
 @dataclass
 class Control:
-    """What a method was asked for: a relative tolerance (rtol) or a step in seconds."""
+    """What controls the error of a run: relative tolerance (rtol), step (s), or fraction of the critical step
+    (safety)."""
     kind: str
     value: float
 
 
 @dataclass
 class Spread:
-    """Seconds of the repeats of one run."""
+    """Times (s) of the repeats of one run."""
     median: float = math.nan
     min: float = math.nan
     max: float = math.nan
@@ -35,7 +36,7 @@ class Work:
 
 @dataclass
 class Point:
-    """One run of one method at one control."""
+    """The run of a method with one value of its control."""
     index: int
     problem: str
     method: str
@@ -47,12 +48,12 @@ class Point:
     repeats: float
     clocks: dict  # "wall", "cpu" -> Spread
     counts: dict  # steps, rejected_steps, newton_iterations, ...
-    work: dict  # of PARTS -> Work
+    work: dict  # names in PARTS -> Work
     peak_memory: float
     factor_bytes: float
     errors: dict
     near_reference: set
-    drift: dict  # energy, linear_momentum, angular_momentum: largest relative drift
+    drift: dict  # largest relative drift of energy, linear_momentum, angular_momentum
     drift_times: np.ndarray
     drift_energy: np.ndarray
     smallest_det_f: float
@@ -78,17 +79,17 @@ class Reference:
     seconds: float = math.nan
     message: str = ""
     errors: dict = field(default_factory=dict)
-    mesh_error: float = math.nan  # an estimate; of a reference with a mesh of its own
+    mesh_error: float = math.nan  # estimated; nan unless the reference has its own mesh
     unknowns: float = math.nan
-    folder: str = ""  # in that of the comparison
-    shared_mesh_error: float = math.nan  # of the mesh that the points have, too: no part of their errors
+    folder: str = ""  # of the reference's run, in the comparison's folder
+    shared_mesh_error: float = math.nan  # of a mesh that the points share, so that their errors do not contain it
 
     @property
     def has_own_mesh(self):
         return math.isfinite(self.mesh_error)
 
     def reach(self, measure):
-        """Errors below it are not resolved; nan where it is not known."""
+        """Smallest resolved error; nan if unknown."""
         own_mesh = NEAR_ITS_MESH * self.mesh_error if self.has_own_mesh else 0.0
         return NEAR_REFERENCE * self.errors.get(measure, math.nan) + own_mesh
 
@@ -111,7 +112,7 @@ class Problem:
     quantity_scales: dict
     dominant_frequency: float
     reference: Reference
-    mesh: str = ""  # what tells it from others that share its reference
+    mesh: str = ""  # name of the mesh, distinct among problems with one reference
 
 
 @dataclass
@@ -126,7 +127,8 @@ class Method:
 
 @dataclass
 class Answer:
-    """Seconds each method needs to reach the error `target`; nan with the best error where it did not."""
+    """Time (s) of each method to reach the error `target`. For a method that does not reach it: nan, and its best
+    error."""
     problem: str
     error: str
     target: float
@@ -143,12 +145,12 @@ class Order:
 
 
 @dataclass
-class Front:
-    """Problems that differ in their meshes only, measured against one reference."""
+class ParetoFront:
+    """The Pareto front of problems that differ only in the mesh and share a reference."""
     id: str
     label: str
-    problems: list  # ids
-    points: list  # indices of those that no other beats in both error and CPU time, from fast to accurate
+    problems: list  # their ids
+    points: list  # indices of Pareto-optimal points (error, CPU time), fastest first
     answers: list  # (target, index of the fastest point that reaches it, in words)
 
 
@@ -169,19 +171,19 @@ class Comparison:
     points: list
     answers: list
     orders: list
-    fronts: list = field(default_factory=list)
+    pareto_fronts: list = field(default_factory=list)
 
     @property
     def clock(self):
-        """The one that is shown first."""
-        return "cpu" if self.fronts else "wall"
+        """The clock shown first: "wall" or "cpu"."""
+        return "cpu" if self.pareto_fronts else "wall"
 
     def problem(self, name):
         return next(p for p in self.problems if p.id == name)
 
     def points_of(self, problem, method=None):
-        """Points of a problem (and a method), loose control first; methods in their order, those without a finished
-        run last."""
+        """The points of a problem, or of a problem and a method: method by method, each from loose to tight control.
+        Methods without a finished run come last."""
         rank = {m.id: k for k, m in enumerate(self.methods)}
         found = [p for p in self.points if p.problem == problem.id and method in (None, p.method)]
         ended = {p.method for p in found if p.completed}

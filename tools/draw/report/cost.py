@@ -1,4 +1,4 @@
-"""Where the time goes: stacked bars of one run per method, all of about the same error."""
+"""Cost breakdown: a stacked bar for each method, of a run with about the same error."""
 import numpy as np
 
 from . import measures, theme, formatting
@@ -13,14 +13,14 @@ BAR = 20
 
 
 def parts_of(point):
-    """{part: seconds}, the rest being wall time without the others and never below zero."""
+    """{part: seconds}; `rest`: wall time minus the other parts, at least 0."""
     parts = {part: np.nan_to_num(point.work[part].seconds) for part in PARTS}
     parts["rest"] = max(0.0, np.nan_to_num(point.seconds()) - sum(parts.values()))
     return parts
 
 
 def _note(point, reached, measure, narrow, cut):
-    """The words right of a bar; `cut` says that the bar should be longer."""
+    """The text to the right of a bar. `cut`: whether the bar is truncated."""
     total = formatting.seconds(point.seconds())
     error = f"error {formatting.exponent(point.error(measure))}"
     if not reached:
@@ -40,7 +40,7 @@ def _bar(axes, point, index, faint):
 
 
 def _key(layout, top):
-    """The parts' colours in their order."""
+    """Draws the legend of the parts' colours."""
     left = 0
     for part, name in NAMES.items():
         if left + 24 + LETTER * len(name) > layout.width:
@@ -52,7 +52,7 @@ def _key(layout, top):
 
 @styled
 def draw_cost_breakdown(comparison, problem, width):
-    """None without a finished run."""
+    """The layout; None if no run has finished."""
     found = representatives(comparison, problem)
     if not found:
         return None
@@ -80,7 +80,7 @@ def draw_cost_breakdown(comparison, problem, width):
 
 
 def _scale(found):
-    """Seconds of the full width: the slowest that reached the target; longer bars are cut off there."""
+    """Time (s) shown by the full width: that of the slowest run that reached the target. Longer bars are truncated."""
     totals = [(sum(parts_of(point).values()), reached) for point, reached in found]
     return max([t for t, reached in totals if reached] or [t for t, _ in totals]) or 1.0
 

@@ -1,10 +1,10 @@
-"""What a reader needs to trust the numbers: references, definitions, methods, machine, the command."""
+"""Details: references, definitions, methods, machine, and the command that reproduces the study."""
 import shlex
 
 from . import measures, formatting
-from .markup import joined, scrolling, tag
+from .markup import joined, tag
 from .method_name import method_name
-from .tables import caption
+from .tables import headed_table
 
 
 def _reference_words(problem):
@@ -17,22 +17,23 @@ def _reference_words(problem):
     if formatting.known(reference.seconds):
         parts.append(f" in {formatting.seconds(reference.seconds)}")
     if reference.check and not reference.errors:
-        parts.append(f". The check by {reference.check} failed, so its own error is not known and nothing is "
-                     "concluded from it")
+        parts.append(f". The check by {reference.check} failed, so its own error is unknown and no conclusions "
+                     "are drawn")
     elif reference.check:
         parts.append(f". Its own error is its difference to a second solution by {reference.check}")
     if reference.has_own_mesh:
-        parts.append(f". It has a mesh of its own, of {formatting.count(reference.unknowns)} unknowns, whose error is "
-                     f"about {formatting.exponent(reference.mesh_error)}, by the share of the elastic energy that "
-                     "recovered stresses tell")
+        parts.append(f". It has its own mesh with {formatting.count(reference.unknowns)} unknowns, whose error is about "
+                     f"{formatting.exponent(reference.mesh_error)} of the elastic energy, estimated from recovered "
+                     "stresses")
     if formatting.known(reference.shared_mesh_error):
-        parts.append(f". It has the mesh of the scene, as all points have: errors are those in time, and the mesh puts all "
-                     f"of them off by about {formatting.exponent(reference.shared_mesh_error)} of the elastic energy")
+        parts.append(f". It has the mesh of the scene, like all points: errors are time integration errors only; the mesh "
+                     f"error is about {formatting.exponent(reference.shared_mesh_error)} of the elastic energy")
     return "".join(parts) + "." + (f" {reference.message}" if reference.message else "")
 
 
 def _own_errors(problem):
-    """What by how (over time, at the end, largest), of the reference's own errors."""
+    """Table of the reference's own errors: a row for each measure, a column for each norm (over time, final,
+    largest)."""
     own = problem.reference.errors
     whats = list(dict.fromkeys(key.rsplit(".", 1)[0] for key in own if "." in key))
     rows = [_own_row(measures.name(what), [own.get(f"{what}.{kind}") for kind in measures.KINDS])
@@ -43,8 +44,7 @@ def _own_errors(problem):
         return None
     head = [tag("th", "Quantity", scope="col"),
             *(tag("th", name, scope="col", class_="num") for name in measures.KINDS.values())]
-    return scrolling(tag("table", caption("The reference's own errors"), tag("thead", tag("tr", *head)),
-                         tag("tbody", *rows), class_="small"), label=f"Own errors of the reference of {problem.label}")
+    return headed_table("The reference's own errors", head, rows, f"Own errors of the reference of {problem.label}", "small")
 
 
 def _own_row(name, values):
@@ -53,7 +53,7 @@ def _own_row(name, values):
 
 
 def pairs(items):
-    """A description list without what is not known."""
+    """A description list of the items, leaving out unknown ones."""
     return tag("dl", *(joined([tag("dt", key), tag("dd", value)]) for key, value in items if value))
 
 
@@ -84,9 +84,9 @@ def problem_details(problem):
         ("Reference", _reference_words(problem)))), _own_errors(problem))
 
 
-ACROSS_MESHES = ("Here the reference has a mesh of its own. Probes are followed at their places within the elements; "
-                 "displacement and velocity are the root mean square over the probes. An error below ten times the "
-                 "reference's own in time and twice the estimate of its mesh's is not resolved.")
+ACROSS_MESHES = ("Here the reference has its own mesh. Probes are interpolated within the elements; "
+                 "displacement and velocity are the root mean square over the probes. Errors below ten times the "
+                 "reference's own time error or twice its mesh error are not resolved.")
 
 
 def definitions(comparison):
@@ -104,7 +104,7 @@ def definitions(comparison):
                  "that is conserved or balanced, relative (energy: to the largest energy)."),
         tag("p", "No reference is exact to the last digit. An error below ten times the reference's own error says "
                  "little about the method: its marker is hollow and the diagrams are shaded there."),
-        tag("p", ACROSS_MESHES) if comparison.fronts else None])
+        tag("p", ACROSS_MESHES) if comparison.pareto_fronts else None])
 
 
 def methods_table(comparison):
@@ -113,12 +113,11 @@ def methods_table(comparison):
             for m in comparison.methods]
     head = [tag("th", h, scope="col", class_="word" if h == "What it is" else None)
             for h in ("Method", "Integrator", "Controlled by", "What it is", "Set")]
-    return scrolling(tag("table", caption("Methods and what was set for them"), tag("thead", tag("tr", *head)),
-                         tag("tbody", *rows)), label="Methods")
+    return headed_table("Methods and what was set for them", head, rows, "Methods")
 
 
 def _value(key, text):
-    """memory_bytes 24e9 -> 24000 MB, other texts as they are."""
+    """The text of an entry: memory_bytes 24e9 becomes 24000 MB; other texts are unchanged."""
     try:
         return f"{formatting.megabytes(float(text))} MB" if "bytes" in key else text
     except ValueError:
@@ -126,12 +125,12 @@ def _value(key, text):
 
 
 def facts(values):
-    """Of a machine, versions or settings: their names and values in words."""
+    """Names and values of machine, versions or settings as text."""
     return pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
 
 
 def command(study, file, folder, ranks=1):
-    """What made a study; `file` None where that is not known."""
+    """The command that made a study; `file` may be None."""
     place = shlex.quote(str(folder))
     several = f" --ranks {ranks}" if ranks > 1 else ""
     return f"orthodyn {study} {shlex.quote(file or 'FILE.yaml')} --out {place}{several}"

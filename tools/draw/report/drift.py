@@ -7,12 +7,12 @@ import numpy as np
 from . import formatting
 from .comparable import USUAL, representatives
 from .layout import CONTROL, LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
-from .runs import end_fraction, label_right
+from .runs import end_fraction, label_runs
 from .scale import error_tick, limits, positive, set_log
 from .theme import LIGHT, colour, dashes
 
 MOST_SAMPLES = 200
-FLOOR = 1e-18  # below it a drift is round-off of round-off
+FLOOR = 1e-18  # smaller drifts are round-off
 
 
 def _usable(point):
@@ -24,14 +24,15 @@ def _tolerance(p):
 
 
 def shared_tolerance(comparison, problem):
-    """The tolerance at which most methods have a history, of several the nearest to 1e-3; nan without any."""
+    """The tolerance at which most methods have a history; among several such tolerances, the nearest to 1e-3. nan if
+    there is none."""
     counts = Counter(_tolerance(p) for p in comparison.finished(problem) if _usable(p) and _tolerance(p) > 0)
     return min(counts, key=lambda rtol: (-counts[rtol], abs(math.log10(rtol / USUAL)), rtol), default=math.nan)
 
 
 def drift_runs(comparison, problem):
-    """A run of each method that has a history: at the shared tolerance or next to it; of methods without a tolerance
-    the representative, or the run of nearest cost."""
+    """For each method, a run with a history: the one nearest to the shared tolerance. For methods without a tolerance:
+    the representative, or the run of the nearest cost."""
     found, shared = [], shared_tolerance(comparison, problem)
     for point, _ in representatives(comparison, problem):
         runs = [p for p in comparison.finished(problem, point.method) if _usable(p)]
@@ -44,21 +45,21 @@ def drift_runs(comparison, problem):
 
 
 def _name(comparison, point, shared):
-    """A method's label, with its control where that is not the shared tolerance."""
+    """A method's label, with its control if it is not the shared tolerance."""
     label = comparison.methods[comparison.method_index(point.method)].label
     return label if _tolerance(point) == shared else f"{label}, {formatting.control(point.control)}"
 
 
 def _history(point):
-    """Times and |drift|; zeros, as at the start, leave a gap on a logarithmic axis."""
+    """Times and |drift|. Zeros become gaps, because the axis is logarithmic."""
     every = max(1, len(point.drift_times) // MOST_SAMPLES)
     size = np.abs(point.drift_energy[::every])
     return point.drift_times[::every], np.where(size > FLOOR, size, np.nan)
 
 
 def _draw_histories(axes, indices, histories):
-    """Lines of |drift|; returns where each one ends, for its name."""
-    # The first instants start at zero drift; they must not stretch the axis over many decades.
+    """Draws |drift|; returns the end of each line, for its label."""
+    # The drift starts at zero. Its first values must not extend the logarithmic axis by many decades.
     values = np.concatenate([size[np.isfinite(size)] for _, size in histories])
     set_log(axes, "y", *limits(values[values >= np.quantile(values, 0.02)] if values.size else values), error_tick)
     ends = []
@@ -71,7 +72,7 @@ def _draw_histories(axes, indices, histories):
 
 @styled
 def draw_energy_drift(comparison, problem, width):
-    """None where no run has a history."""
+    """The layout; None if no run has a history."""
     found = drift_runs(comparison, problem)
     if not found:
         return None
@@ -92,10 +93,7 @@ def draw_energy_drift(comparison, problem, width):
     at = f" at rtol {formatting.exponent(shared, 3)}" if shared > 0 else ""
     layout.text(0, 16, f"Energy drift{at}, |change| / largest energy", weight="bold")
     layout.text(left + box[2] / 2, 40 + height + 40, "Time in the scene [s]", ha="center", color=LIGHT["ink"])
-    if narrow:
-        layout.legend(40 + height + 52, entries, columns)
-    else:
-        label_right(layout, box, entries, ends)
+    label_runs(layout, box, entries, ends, columns)
     return layout
 
 

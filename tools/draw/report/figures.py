@@ -1,51 +1,29 @@
-"""Draws figures: for the page in two widths and several variants, for papers as files."""
-import re
-
-import matplotlib
-
+"""The figures of a comparison: variants for the page, and files for papers."""
 from . import measures
 from .cost import draw_cost_breakdown
 from .drift import draw_energy_drift
-from .front import draw_front
-from .layout import NARROW, WIDE
-from .markup import Html, tag
+from .pareto_front import draw_pareto_front
+from .figure_files import PageFigures, distinct, file_name, write_paper_figure
+from .layout import WIDE
+from .markup import tag
 from .scale import positive
-from .svg import Styles, page_svg
 from .tolerance import draw_error_against_control
 from .work_precision import draw_work_precision
 
-PAPER_DPI = 220
-PAPER = {"bbox_inches": "tight", "pad_inches": 0.08, "facecolor": "white"}
 CLOCKS = {"wall": "wall time", "cpu": "CPU time"}
 
 
-def both_widths(draw, styles, salt):
-    """`draw(width)` as a wide and a narrow SVG, of which the page shows one; None where nothing is drawn."""
-    parts = []
-    for name, width in (("wide", WIDE), ("narrow", NARROW)):
-        layout = draw(width)
-        if layout is None:
-            return None
-        parts.append(tag("div", Html(page_svg(layout, salt + name[0], styles)), class_=name))
-    return Html("".join(parts))
-
-
-class Figures:
-    """Figures of one comparison; every SVG gets ids of its own."""
+class Figures(PageFigures):
+    """The figures of a comparison."""
 
     def __init__(self, comparison):
+        super().__init__()
         self.comparison = comparison
         self.primary = measures.primary(comparison)
-        self.styles = Styles()
-        self._drawn = 0
 
-    def both_widths(self, draw):
-        self._drawn += 1
-        return both_widths(draw, self.styles, f"f{self._drawn}")
-
-    def front(self, front, measure=None, clock="cpu"):
+    def pareto_front(self, front, measure=None, clock="cpu"):
         measure = measure or self.primary
-        return self.both_widths(lambda w: draw_front(self.comparison, front, measure, clock, w))
+        return self.both_widths(lambda w: draw_pareto_front(self.comparison, front, measure, clock, w))
 
     def work_precision(self, problem, measure=None, clock="wall"):
         measure = measure or self.primary
@@ -62,7 +40,7 @@ class Figures:
         return self.both_widths(lambda w: draw_energy_drift(self.comparison, problem, w))
 
     def choices(self):
-        """(measure, clock) that runs have, the first ones first; the very first is shown without asking."""
+        """The available pairs (measure, clock). The page first shows the first of them."""
         found = measures.present(self.comparison.points) or [self.primary]
         found.sort(key=lambda m: m != self.primary)
         clocks = [c for c in CLOCKS if c == "wall" or positive(p.seconds(c) for p in self.comparison.points).size]
@@ -71,8 +49,8 @@ class Figures:
         return sorted(pairs, key=lambda pair: pair[0] != self.primary)
 
     def variants(self, room):
-        """{(figure, problem id): templates} of all choices but the first, as far as `room` characters allow;
-        and the choices that are in it."""
+        """{(figure, problem id): templates} for choices other than the first, and the list of choices included. Choices
+        are left out when the templates would exceed `room` characters."""
         first, *others = self.choices()
         found, offered = {}, [first]
         for measure, clock in others:
@@ -86,13 +64,14 @@ class Figures:
         return found, offered
 
     def _group(self, measure, clock):
-        """The templates of one choice for all problems; tolerances do not depend on the clock."""
+        """The templates of one choice for all problems. Figures of error against tolerance do not depend on the
+        clock."""
         group = {}
-        for front in self.comparison.fronts:
-            group["front", front.id] = tag("template", self.front(front, measure, clock), data_measure=measure,
+        for front in self.comparison.pareto_fronts:
+            group["front", front.id] = tag("template", self.pareto_front(front, measure, clock), data_measure=measure,
                                            data_clock=clock)
         for problem in self.comparison.problems:
-            if not self.comparison.fronts:
+            if not self.comparison.pareto_fronts:
                 group["wp", problem.id] = tag("template", self.work_precision(problem, measure, clock),
                                               data_measure=measure, data_clock=clock)
             if clock == self.comparison.clock:
@@ -101,10 +80,10 @@ class Figures:
 
 
 def _paper_figures(comparison, problem):
-    """(name, function that draws it)."""
+    """(name, function that draws the figure) for each figure of a problem."""
     measure = measures.primary(comparison)
     return (*((("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),)
-              if not comparison.fronts else ()),
+              if not comparison.pareto_fronts else ()),
             ("error_against_control", lambda: draw_error_against_control(comparison, problem, measure, WIDE)),
             ("drift_against_control",
              lambda: draw_error_against_control(comparison, problem, measures.DRIFT + "energy", WIDE)),
@@ -113,34 +92,18 @@ def _paper_figures(comparison, problem):
 
 
 def _named(items):
-    """Problems or fronts, with their ids as parts of file names."""
+    """Pairs of a problem or Pareto front and an id that can be used in file names."""
     taken = set()
     for item in items:
-        name = re.sub(r"[^\w.-]+", "_", item.id).strip("._") or "problem"
-        while name in taken:
-            name += "_"
-        taken.add(name)
-        yield item, name
+        yield item, distinct(file_name(item.id).strip("._") or "problem", taken)
 
 
 def write_paper_figures(comparison, folder):
     """Writes FIGURE_PROBLEM.svg and .png; yields their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    for front, name in _named(comparison.fronts):
-        yield from _written(draw_front(comparison, front, measures.primary(comparison), "cpu", WIDE),
-                            folder / f"front_{name}")
+    for front, name in _named(comparison.pareto_fronts):
+        yield from write_paper_figure(draw_pareto_front(comparison, front, measures.primary(comparison), "cpu", WIDE),
+                                      folder / f"front_{name}")
     for problem, name in _named(comparison.problems):
         for figure, draw in _paper_figures(comparison, problem):
-            yield from _written(draw(), folder / f"{figure}_{name}")
-
-
-def _written(layout, stem):
-    """Writes STEM.svg and STEM.png, of a figure that there is."""
-    if layout is None:
-        return
-    svg, png = (stem.with_name(f"{stem.name}.{kind}") for kind in ("svg", "png"))
-    with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": svg.stem}):
-        layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
-    layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
-    yield svg
-    yield png
+            yield from write_paper_figure(draw(), folder / f"{figure}_{name}")

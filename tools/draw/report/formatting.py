@@ -1,4 +1,4 @@
-"""Numbers and times for people; '–' stands for what is not known."""
+"""Formats numbers and times. Unknown ones become '–'."""
 import math
 
 from ..digits import known_digits
@@ -34,7 +34,7 @@ def fixed_exponent(x):
 
 
 def percent(x):
-    """1e-3 -> '0.1 %'; '' where per cent would not help."""
+    """1e-3 -> '0.1 %'; '' for numbers that are clearer without a percentage."""
     return f"{100 * x:.2g}{THIN}%" if known(x) and 1e-6 <= x <= 1 else ""
 
 
@@ -61,14 +61,14 @@ def step(x):
 
 
 def plain_seconds(x):
-    """For columns headed by 's'."""
+    """A time without unit, for columns headed by 's'."""
     if not known(x):
         return UNKNOWN
     return f"{x:.3f}" if x < 10 else f"{x:.1f}" if x < 1000 else f"{x:.0f}"
 
 
 def span(spread):
-    """'0.230 to 0.260' of repeats that differ."""
+    """'0.230 to 0.260' for repeats that differ."""
     return f"{plain_seconds(spread.min)} to {plain_seconds(spread.max)}" if spread.max > spread.min else UNKNOWN
 
 
@@ -82,7 +82,7 @@ def megabytes(x):
 
 
 def general(x, digits=4, error=math.nan):
-    """With no more digits than its error, a share of it, lets be known."""
+    """The number with the digits that exceed its relative error."""
     return known_digits(x, error, digits) if known(x) else UNKNOWN
 
 

@@ -1,6 +1,6 @@
-"""A figure laid out in pixels from its top left corner, with the small print all figures share.
+"""A figure laid out in pixels from its top left corner, with common labels and legends.
 
-Marks that the page knows carry a gid: `pt-INDEX-METHOD` a run, `me-METHOD` what belongs to a method.
+Interactive marks carry a gid: `pt-INDEX-METHOD` for a run, `me-METHOD` for parts of a method.
 """
 import matplotlib
 from matplotlib.figure import Figure
@@ -9,11 +9,11 @@ from matplotlib.lines import Line2D
 from . import theme
 from .theme import LIGHT
 
-PIXELS_PER_INCH = 72  # per inch: one point is one pixel of the page
+PIXELS_PER_INCH = 72  # a point is a pixel of the page
 WIDE, NARROW = 780, 350
-LETTER = 7.0  # px, a letter of size 12, for margins
-LABEL = 32  # letters of a method's name in a figure: "generalized_alpha, fixed step" is whole
-CONTROL = 14  # letters of ", step 200 µs" after it
+LETTER = 7.0  # px: average width of a letter of size 12
+LABEL = 32  # most letters of a method's name in a figure, enough for "generalized_alpha, fixed step"
+CONTROL = 14  # most letters of the control after the name: ", step 200 µs"
 
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 12, "text.color": LIGHT["ink"], "text.parse_math": False,
@@ -26,7 +26,7 @@ STYLE = {
 
 
 def styled(draw):
-    """Decorator: the house's style while `draw` runs, and only then."""
+    """Decorator: applies the matplotlib style while `draw` runs."""
     def wrapped(*arguments, **options):
         with matplotlib.rc_context(STYLE):
             return draw(*arguments, **options)
@@ -34,7 +34,7 @@ def styled(draw):
 
 
 class PixelLayout:
-    """`description` says in words what is drawn, for those who cannot see it."""
+    """A figure, and its text alternative `description`."""
 
     def __init__(self, width, height, description=""):
         self.width, self.height, self.description = width, height, description
@@ -63,7 +63,7 @@ class PixelLayout:
         self.figure.add_artist(line)
 
     def method_label(self, x, y, index, words, failed=False, plain=False):
-        """Line, marker (unless `plain`) and name of a method; a cross and the pale name of one that only failed."""
+        """Draws a method's line, marker (unless `plain`) and name; a cross and a pale name if all its runs failed."""
         colour, gid = theme.colour(index), f"me-{index}"
         if failed:
             self.line([x + 9], [y], color=colour, gid=gid, **theme.FAILURE)
@@ -75,7 +75,7 @@ class PixelLayout:
         self.text(x + 25, y, words, gid=gid, color=LIGHT["muted" if failed else "ink"])
 
     def legend(self, top, entries, columns=1, left=2, plain=False):
-        """Labels of methods (index, words, failed) in rows below `top`."""
+        """Draws the labels of methods (index, words, failed) in rows below `top`."""
         step = (self.width - 2 * left) / columns
         for k, (index, words, failed) in enumerate(entries):
             self.method_label(left + step * (k % columns), top + 10 + 20 * (k // columns), index, words, failed,
@@ -87,7 +87,7 @@ def shortened(words, letters):
 
 
 def side_margin(entries, most=0.36 * WIDE):
-    """Pixels that labels to the right of the axes need."""
+    """Width (px) that labels to the right of the axes need."""
     longest = max((len(words) for _, words, _ in entries), default=0)
     return min(50 + LETTER * longest, most)
 

@@ -1,10 +1,10 @@
-"""HTML from nested calls; every text is escaped unless it is Html already."""
+"""Builds HTML by nested calls. Texts are escaped unless they are Html."""
 import html
 import json
 
 
 class Html(str):
-    """Text that is HTML and stays as it is."""
+    """HTML text, not to be escaped."""
 
 
 def escaped(value):
@@ -21,7 +21,7 @@ def _attribute(key, value):
 
 
 def tag(name, /, *children, **attributes):
-    """tag("td", "1 < 2", class_="num"); attributes that are None or False are left out."""
+    """An HTML element: tag("td", "1 < 2", class_="num"). Attributes that are None or False are left out."""
     given = "".join(_attribute(k, v) for k, v in attributes.items() if v is not None and v is not False)
     return Html(f"<{name}{given}>{joined(children)}</{name}>")
 
@@ -31,12 +31,12 @@ def void(name, /, **attributes):
 
 
 def data_script(identity, value):
-    """JSON for the page's script; '<' is escaped so that no text can end the element."""
+    """A script element with JSON for the page's script. '<' is escaped, so that texts cannot close the element."""
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     text = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     return Html(f'<script type="application/json" id="{identity}">{text}</script>')
 
 
 def scrolling(*children, label):
-    """A box that scrolls by itself, also by keyboard."""
+    """A box that can be scrolled, also by keyboard."""
     return tag("div", *children, class_="scroll", tabindex="0", role="region", aria_label=label)

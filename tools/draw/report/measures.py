@@ -1,4 +1,4 @@
-"""The ways an error is measured, in the order a reader meets them."""
+"""Error measures, in the order of the report."""
 import math
 
 KINDS = {"l2": "over time (L2)", "final": "at the end", "max": "largest in time"}
@@ -42,13 +42,13 @@ def _rank(measure):
 
 
 def present(points):
-    """Measures that at least one finished point has, in order."""
+    """The measures that at least one finished point has."""
     found = {key for p in points if p.completed for key, value in p.errors.items() if math.isfinite(value)}
     return sorted(found, key=_rank)
 
 
 def primary(comparison):
-    """The measure that is shown first: that of the answers, else displacement over time."""
+    """The measure shown first: that of the answers, or without answers the displacement over time."""
     found = present(comparison.points)
     wanted = [a.error for a in comparison.answers] + [DEFAULT]
     return next((m for m in wanted if m in found), found[0] if found else DEFAULT)

@@ -1,10 +1,10 @@
-// Values under the pointer, the choice of measure and clock, the theme. The page is complete without it.
+// Tooltips, choice of error measure and clock, theme. The page works without this script.
 (() => {
   "use strict";
   const root = document.documentElement;
   const data = JSON.parse(document.getElementById("run-data").textContent);
   const chosen = {measure: data.measure, clock: data.clock};
-  const reach = 22; // px around a mark where it can be picked
+  const reach = 22; // px: marks within this distance of the pointer are picked
   root.classList.add("scripted");
 
   const element = (name, text) => Object.assign(document.createElement(name), {textContent: text ?? ""});
@@ -34,7 +34,7 @@
     tip.style.top = `${top + scrollY}px`;
   }
 
-  let picked = null; // the svg and the mark that are shown
+  let picked = null; // svg and mark of the tooltip shown
   function highlight(svg, method) {
     for (const part of svg.querySelectorAll("[data-m]")) part.classList.toggle("off", method !== null && part.dataset.m !== method);
   }
@@ -64,7 +64,7 @@
     return found;
   }
 
-  // A field of a table of grades, which has its values as a mark of a figure has.
+  // A field of the stability matrix has a tooltip like a mark of a figure.
   const field = event => event.target.closest ? event.target.closest("table.matrix [data-p]") : null;
 
   function point(event) {
@@ -96,7 +96,7 @@
     pick(svg, step > 0 ? marks[Math.max(next, 0)] : before || marks[marks.length - 1]);
   });
 
-  // A matrix is one stop of the tab key; arrow keys move among its fields.
+  // A matrix is one tab stop; arrow keys move between its fields.
   for (const matrix of document.querySelectorAll("table.matrix")) {
     const fields = [...matrix.querySelectorAll("[data-p]")];
     fields.forEach((cell, k) => { cell.tabIndex = k ? -1 : 0; });
@@ -113,7 +113,7 @@
     });
   }
 
-  const originals = new Map(); // figure -> what was shown first
+  const originals = new Map(); // figure -> its initial content
   function show(figure) {
     const stage = figure.querySelector(".stage");
     if (!originals.has(figure)) originals.set(figure, stage.innerHTML);
@@ -144,7 +144,7 @@
     input.addEventListener("change", () => choose(input.dataset.pick, input.value));
   }
 
-  // A table that is wider than its box says so, and fades where it goes on.
+  // Marks tables that are wider than their box, which then fade at the hidden side.
   function watch(box) {
     const hint = Object.assign(element("p", "More columns to the right: scroll the table sideways \u2192"), {className: "hint"});
     hint.setAttribute("aria-hidden", "true");

@@ -1,17 +1,13 @@
-"""Puts the report together: one HTML file that opens without a network."""
-from pathlib import Path
-
+"""The page of a comparison: one HTML file that opens offline."""
 from . import answer, details, measures, tables, formatting
+from .document import document, header, not_finished, run_data, section, when
 from .drift import drift_runs
 from .figures import CLOCKS, Figures
-from .markup import Html, data_script, joined, tag, void
+from .markup import joined, tag, void
 from .method_name import glyphs
-from .theme import DARK, LIGHT
 from .tooltips import tooltip
 
-HERE = Path(__file__).resolve().parent
-SCRIPT = HERE / "page.js"
-BUDGET = 2_700_000  # characters of the page; further variants of figures are left out
+BUDGET = 2_700_000  # characters of the page, beyond which variants of figures are left out
 
 READ = {
     "wp": "One marker is one run, one line one method from loose to tight control; lower left is better: less error in "
@@ -28,22 +24,10 @@ READ = {
 }
 
 
-def _variables(colours):
-    return "".join(f"--{name}:{value};" for name, value in colours.items())
-
-
-def _style(figures):
-    """`figures` are the rules of the figures' classes."""
-    light, dark = _variables(LIGHT) + "color-scheme:light;", _variables(DARK) + "color-scheme:dark;"
-    themes = (f":root{{{light}}}@media (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{dark}}}}}"
-              f":root[data-theme=dark]{{{dark}}}@media print{{:root:root:root{{{light}}}}}")
-    return tag("style", Html(themes + (HERE / "page.css").read_text(encoding="utf-8") + figures))
-
-
-READ_FRONT = ("One marker is one run, one line one method on one mesh from loose to tight control; lower left is "
-              "better. A colour is a mesh, a marker a method. The broad grey line is the front: what no other run "
-              "beats in both error and time. Where a line runs level the error of its mesh remains. Hollow markers are "
-              "within reach of the reference's own error.")
+READ_PARETO_FRONT = (
+    "One marker is one run, one line one method on one mesh from loose to tight control; lower left is better. A colour is a "
+    "mesh, a marker a method. The broad grey line is the Pareto front: runs that no other run beats in both error and time. "
+    "Where a line is level, the mesh error remains. Hollow markers are within reach of the reference's own error.")
 
 
 def _counted(comparison):
@@ -55,31 +39,22 @@ def _counted(comparison):
     machine = comparison.machine.get("processor", "")
     cores = comparison.machine.get("cores")
     where = machine + (f", {cores} cores" if machine and cores else "")
-    return parts + [part for part in (comparison.started.replace("T", " ").replace("Z", " UTC"), where) if part]
+    return parts + [part for part in (when(comparison.started), where) if part]
 
 
 def _banner(comparison):
     if comparison.complete:
         return None
     planned = f" of {formatting.count(comparison.planned)}" if formatting.known(comparison.planned) else ""
-    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows "
-               "covers the points so far.", class_="banner", role="status")
+    return not_finished(f"{len(comparison.points)}{planned} points. What follows covers the points so far.")
 
 
-def _header(comparison, view):
-    sections = (("answer", "Fastest"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
-                ("drift", "Drift"), ("runs", "Runs"), ("details", "Details"))
-    links = [tag("a", name, href=f"#{identity}") for identity, name in sections]
-    links += [tag("a", "In 3D", href=view)] if view else []
-    return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"),
-               tag("h1", comparison.title or comparison.name),
-               tag("p", comparison.description, class_="lede") if comparison.description else None,
-               tag("p", " · ".join(_counted(comparison)), class_="facts"), _banner(comparison),
-               tag("nav", *links, aria_label="Sections"))
+LINKS = (("answer", "Fastest"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
+         ("drift", "Drift"), ("runs", "Runs"), ("details", "Details"))
 
 
 def _choosers(offered, group, with_clock=True):
-    """The selector of the error measure and of the clock; hidden without a script."""
+    """Selectors of error measure and clock. They are hidden if scripts are disabled."""
     found = list(dict.fromkeys(measure for measure, _ in offered))
     clocks = list(dict.fromkeys(clock for _, clock in offered)) if with_clock else []
     parts = []
@@ -95,37 +70,33 @@ def _choosers(offered, group, with_clock=True):
     return tag("div", *parts, class_="choosers js") if parts else None
 
 
-def _fronts(comparison, figures, variants, first):
-    """A figure for each front."""
+def _pareto_fronts(comparison, figures, variants, first):
+    """A figure for each Pareto front."""
     parts = []
-    for k, front in enumerate(comparison.fronts):
-        stage = tag("div", figures.front(front, *first), class_="stage")
-        title = tag("h3", front.label) if len(comparison.fronts) > 1 else None
+    for k, front in enumerate(comparison.pareto_fronts):
+        stage = tag("div", figures.pareto_front(front, *first), class_="stage")
+        title = tag("h3", front.label) if len(comparison.pareto_fronts) > 1 else None
         figure = tag("figure", stage, *variants.get(("front", front.id), ()),
-                     tag("figcaption", READ_FRONT) if not k else None, data_kind="wp", data_measure=first[0],
+                     tag("figcaption", READ_PARETO_FRONT) if not k else None, data_kind="wp", data_measure=first[0],
                      data_clock=first[1], aria_label=front.label)
         parts.append(tag("div", title, figure, class_="problem"))
     return joined(parts)
 
 
 def _figure(comparison, problem, kind, picture, variants=(), first=None):
-    """A figure with its variants; `first` is the (measure, clock) that is shown."""
+    """A figure with its variants; `first`: the (measure, clock) shown."""
     if picture is None:
         return None
     measure, clock = first or (None, None)
-    explained = problem is comparison.problems[0]  # once per kind is enough
+    explained = problem is comparison.problems[0]  # each kind of figure is explained once
     stage = tag("div", picture, class_="stage")
     return tag("figure", stage, *variants, tag("figcaption", READ[kind]) if explained else None, data_kind=kind,
                data_measure=measure, data_clock=clock if kind == "wp" else None,
                aria_label=f"{problem.label}")
 
 
-def _section(identity, title, *content):
-    return tag("section", tag("h2", title), *content, id=identity)
-
-
 def _each(comparison, content):
-    """`content(problem)` below each problem's name; the name is left out where there is one problem only."""
+    """`content(problem)` of each problem, below its name if there are several problems."""
     parts = []
     for problem in comparison.problems:
         found = content(problem) or tag("p", "Nothing to show: no finished run has it.", class_="empty")
@@ -146,36 +117,27 @@ def _drift(comparison, figures, problem):
 
 
 def _after(comparison, figures, folder):
-    """All sections below the two that have variants."""
+    """The sections that have no variants."""
     return joined([
-        _section("cost", "Where the time goes", _each(comparison, lambda p: _cost(comparison, figures, p))),
-        _section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, figures, p))),
-        _section("runs", "All runs", _each(comparison, lambda p: tables.runs_table(comparison, p)),
+        section("cost", "Where the time goes", _each(comparison, lambda p: _cost(comparison, figures, p))),
+        section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, figures, p))),
+        section("runs", "All runs", _each(comparison, lambda p: tables.runs_table(comparison, p)),
                  tag("h3", "Failures"), tables.failures_table(comparison)),
-        _section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(comparison),
+        section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(comparison),
                  tag("h3", "Methods"), details.methods_table(comparison),
                  *(details.problem_details(p) for p in comparison.problems), details.provenance(comparison, folder))])
 
 
-def head(title, figures):
-    """`figures` are the rules of the figures' classes."""
-    return tag("head", void("meta", charset="utf-8"),
-               void("meta", name="viewport", content="width=device-width, initial-scale=1"), tag("title", title),
-               _style(figures), void("link", rel="icon", href="data:,"))
-
-
 def page(comparison, folder, view=None):
-    """The whole page as text; `folder` is named in the command that reproduces it, `view` is the page with the runs in 3D."""
+    """The page as HTML. `folder`: for the command that reproduces the comparison; `view`: file of the 3D view, or
+    None."""
     figures = Figures(comparison)
     first = figures.choices()[0]
-    shown = {p.id: (None if comparison.fronts else figures.work_precision(p), figures.tolerance(p))
+    shown = {p.id: (None if comparison.pareto_fronts else figures.work_precision(p), figures.tolerance(p))
              for p in comparison.problems}
     after = _after(comparison, figures, folder)
-    runs = data_script("run-data", {
-        "measure": first[0], "clock": first[1],
-        "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
-        "runs": [tooltip(comparison, p) for p in comparison.points]})
-    script = tag("script", Html(SCRIPT.read_text(encoding="utf-8")))
+    runs = run_data([tooltip(comparison, p) for p in comparison.points], *first,
+                    {m: measures.label(m) for m in measures.present(comparison.points)})
     base = len(after) + len(runs) + sum(len(a or "") + len(b) for a, b in shown.values()) + 100_000
     variants, offered = figures.variants(BUDGET - base)
 
@@ -183,11 +145,12 @@ def page(comparison, folder, view=None):
         return _each(comparison, lambda p: _figure(comparison, p, kind, shown[p.id][which],
                                                    variants.get((kind, p.id), ()), first))
 
-    main = tag("main", _section("answer", "The fastest at each error", answer.answer_section(comparison)),
-               _section("precision", "Work and precision", _choosers(offered, "wp"),
-                        _fronts(comparison, figures, variants, first) if comparison.fronts else pictures("wp", 0)),
-               _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
+    sections = (section("answer", "The fastest at each error", answer.answer_section(comparison)),
+                section("precision", "Work and precision", _choosers(offered, "wp"),
+                        _pareto_fronts(comparison, figures, variants, first) if comparison.pareto_fronts
+                        else pictures("wp", 0)),
+                section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
                         pictures("tol", 1)), after)
-    body = tag("body", glyphs(comparison), _header(comparison, view), main, runs, script)
-    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, figures.styles.css()), body,
-                                     lang="en") + "\n"
+    title = comparison.title or comparison.name
+    top = header(title, _counted(comparison), LINKS, comparison.description, _banner(comparison), view)
+    return document(title, figures.styles.css(), top, sections, runs, glyphs(comparison))

@@ -1,4 +1,4 @@
-"""How runs are drawn against a control or the time: markers, lines, the lane of failures, their labels."""
+"""Draws runs against control or time: lines, markers, labels, and failed runs in a separate lane."""
 import numpy as np
 
 from ..chart import spread
@@ -11,13 +11,13 @@ LANE_GAP = 6
 
 
 def lane_height(failing):
-    """Pixels of the lane with one row per method that failed somewhere."""
+    """Height (px) of the lane, which has a row for each method with failed runs."""
     return max(20, LANE_ROW * len(failing) + 6) if failing else 0
 
 
 def draw_runs(axes, index, runs, hollow, mark=None):
-    """A method's runs (x, y, point) as a line with one mark each; `hollow` is a set of point indices, `mark` the index
-    of the marker where it is not that of the colour."""
+    """Draws a method's runs (x, y, point) as a line with marks. `hollow`: indices of the points with a hollow mark;
+    `mark`: index of the marker, default `index`, which is that of the colour."""
     colour, mark = theme.colour(index), index if mark is None else mark
     axes.plot([x for x, _, _ in runs], [y for _, y, _ in runs], color=colour, lw=1.7, ls=theme.dashes(index),
               gid=f"me-{index}", zorder=3)
@@ -29,7 +29,7 @@ def draw_runs(axes, index, runs, hollow, mark=None):
 
 
 def draw_lane(lane, failing, place):
-    """Crosses of failed runs: {method index: points}; `place(point)` is x, or nan where it is not known."""
+    """Draws crosses for failed runs, {method index: points}. `place(point)`: x, or nan if it is unknown."""
     lane.set_facecolor(LIGHT["lane"])
     lane.grid(False)
     lane.spines["bottom"].set_visible(False)
@@ -45,22 +45,41 @@ def draw_lane(lane, failing, place):
 
 
 def label_right(layout, box, entries, ends, plain=False):
-    """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height; `plain`:
-    without markers."""
+    """Writes names to the right of the axes, near the ends of their lines. `ends`: heights of the line ends, from 0 at
+    the top to 1 at the bottom; `box`: left, top, width and height of the axes; `plain`: without markers."""
     if not entries:
         return
     left, top, width, height = box
     wanted = np.array([top + height * np.clip(end, 0, 1) for end in ends])
     placed = spread(wanted, 20.0)
-    # Names moved apart as one group may leave the layout; the group comes back as a whole.
+    # Spreading may have moved names outside the axes. All names are then shifted back.
     placed = placed + min(0.0, top + height - placed.max())
     placed = placed + max(0.0, top + 4 - placed.min())
     for (index, words, failed), y in zip(entries, placed):
         layout.method_label(left + width + 14, y, index, words, failed, plain)
 
 
+def label_runs(layout, box, entries, ends, columns, below=52, plain=False):
+    """Labels the lines: on narrow pages by a legend, `below` px under the axes; else by names at their right ends."""
+    if layout.narrow:
+        layout.legend(box[1] + box[3] + below, entries, columns, plain=plain)
+    else:
+        label_right(layout, box, entries, ends, plain)
+
+
+def add_failures(layout, axes, box, failing, height, place, labelled=True):
+    """Adds a lane, `height` px high, above the axes. It shows the failed runs, {method index: points}, at x =
+    place(point)."""
+    if not failing:
+        return
+    left, top = box[0], box[1] - LANE_GAP - height
+    draw_lane(layout.axes(left, top, box[2], height, sharex=axes), failing, place)
+    if labelled:
+        layout.text(left - 8, top + height / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
+
+
 def say_nothing_finished(layout, axes, box):
-    """Words in the place of lines; the error axis has no meaning then."""
+    """Writes a text in place of lines, and hides the error axis."""
     left, top, width, height = box
     axes.set_yticks([])
     axes.grid(False)
@@ -68,7 +87,7 @@ def say_nothing_finished(layout, axes, box):
 
 
 def end_fraction(axes, value):
-    """Where a value is on a logarithmic y axis, 0 at the top."""
+    """Position of a value on a logarithmic y axis, 0 at the top."""
     low, high = np.log10(axes.get_ylim())
     if not positive([value]).size:
         return 0.0
@@ -76,7 +95,7 @@ def end_fraction(axes, value):
 
 
 def draw_unresolved(axes, bound, words, side="left"):
-    """Shades what is below `bound`, ten times the reference's own error; the words are at the side without lines."""
+    """Shades the errors below `bound`, which are not resolved. `side`: where the label is, away from the lines."""
     low, high = axes.get_ylim()
     if not bound > low:
         return

@@ -1,4 +1,4 @@
-"""Logarithmic axes: limits around data and few round ticks with readable labels."""
+"""Logarithmic axes: limits around the data, and few round ticks with readable labels."""
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
@@ -13,7 +13,7 @@ def positive(values):
 
 
 def limits(values, pad=0.08, least=1.0):
-    """(low, high) around positive values, at least `least` decades; (0.1, 10) without any."""
+    """(low, high) around the positive values, at least `least` decades apart; (0.1, 10) if there are no such values."""
     values = positive(values)
     if not values.size:
         return 0.1, 10.0
@@ -31,8 +31,8 @@ def _candidates(low, high):
 
 
 def ticks(low, high, most):
-    """Powers of ten where there are three to `most`, else the finest candidate of at most `most` ticks,
-    or a finer one rather than less than two ticks."""
+    """The ticks: powers of ten if there are three to `most` of them; else the finest candidate with at most `most`
+    ticks, or a finer one if that has fewer than two ticks."""
     best, candidates = [], list(_candidates(low, high))
     if 3 <= len(candidates[2]) <= most:
         return candidates[2]

@@ -1,4 +1,4 @@
-"""A figure as SVG text to be put into the page: small, in CSS variables, with marks that a script finds."""
+"""Figures as compact inline SVG, coloured by CSS variables, with data attributes for the script."""
 import io
 import re
 import xml.etree.ElementTree as ElementTree
@@ -17,7 +17,7 @@ ElementTree.register_namespace("", SVG[1:-1])
 
 
 def _raw_svg(figure, salt):
-    """What matplotlib writes; `salt` makes the ids of this figure its own."""
+    """matplotlib's SVG; `salt` makes its ids distinct."""
     stream = io.StringIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
         FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None})
@@ -29,7 +29,7 @@ def _rounded(text, digits):
 
 
 def _themed(style):
-    """Colours become variables; the font is the page's."""
+    """Replaces colours by CSS variables and removes the font."""
     style = re.sub(r"#[0-9a-f]{6}", lambda m: VARIABLES.get(m.group(), m.group()), style)
     style = re.sub(r"font: (?:(bold|\d+) )?([\d.]+)px [^;]*", _font, style)
     return re.sub(r";\s*$", "", re.sub(r"([:;]) ", r"\1", style))
@@ -41,7 +41,7 @@ def _font(match):
 
 
 def _marked(element, identity):
-    """gid `pt-INDEX-METHOD` or `me-METHOD` as data attributes."""
+    """Sets data attributes of `element` from its gid, `pt-INDEX-METHOD` or `me-METHOD`."""
     kind, *numbers = identity.split("-")
     if kind == "pt":
         element.set("data-p", numbers[0])
@@ -49,7 +49,7 @@ def _marked(element, identity):
 
 
 def _short_names(root, salt):
-    """New names of the ids that something refers to."""
+    """New names for the ids that are referred to, as {old: new}."""
     used = set()
     for element in root.iter():
         for value in element.attrib.values():
@@ -85,7 +85,7 @@ def _cleaned(element, names, in_definition=False):
 
 
 def _unwrapped(element):
-    """Groups that say nothing give way to what is in them."""
+    """Replaces groups without attributes by their content."""
     if element.tag == SVG + "g" and len(element) == 1 and element[0].tag == SVG + "use":
         element[0].attrib.update(element.attrib)
         return [element[0]]
@@ -94,7 +94,7 @@ def _unwrapped(element):
 
 
 class Styles:
-    """Styles of all figures of a page, each written once as a class."""
+    """CSS classes that replace the inline styles of all figures of a page."""
 
     def __init__(self):
         self._names = {}
@@ -107,7 +107,7 @@ class Styles:
 
 
 def page_svg(layout, salt, styles):
-    """The layout's SVG element for the page; `salt` must be unique in the page and begin with a letter."""
+    """The layout as an SVG element for the page. `salt` must be unique in the page and start with a letter."""
     text = _raw_svg(layout.figure, salt)
     root = ElementTree.fromstring(text[text.index("<svg"):])
     _cleaned(root, _short_names(root, salt))

@@ -1,4 +1,4 @@
-"""Tables of runs: all of them, the failures, the cost per part, the drifts."""
+"""Tables of all runs, of failed runs, of the cost of each part, and of drifts."""
 import math
 
 from . import cost, measures, formatting
@@ -13,16 +13,21 @@ def number(text, **attributes):
 
 
 def caption(words_):
-    """A caption that stays in sight when a wide table is scrolled."""
+    """A caption that stays visible when the table scrolls."""
     return tag("caption", tag("span", words_, class_="inner"))
 
 
-def table(title, head, rows, label, kind=None):
-    """`head` is (words, is a number)."""
-    cells = [tag("th", text, scope="col", class_="num" if numeric else "word" if k else None)
-             for k, (text, numeric) in enumerate(head)]
+def headed_table(title, cells, rows, label, kind=None):
+    """A scrollable table. `cells`: the cells of its head."""
     return scrolling(tag("table", caption(title), tag("thead", tag("tr", *cells)), tag("tbody", *rows), class_=kind),
                      label=label)
+
+
+def table(title, head, rows, label, kind=None):
+    """A scrollable table. `head`: (words, whether the column contains numbers) of each column."""
+    cells = [tag("th", text, scope="col", class_="num" if numeric else "word" if k else None)
+             for k, (text, numeric) in enumerate(head)]
+    return headed_table(title, cells, rows, label, kind)
 
 
 def status(point):
@@ -82,7 +87,7 @@ def _reached(problem, point):
 
 
 def cost_table(comparison, problem):
-    """Seconds, share and count of each part, of the runs in the bars."""
+    """Time (s), share and count of each part, for the runs that the bars show."""
     rows, measure = [], measures.primary(comparison)
     for point, _ in representatives(comparison, problem):
         parts, total = cost.parts_of(point), point.seconds()

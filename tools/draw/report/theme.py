@@ -1,8 +1,8 @@
-"""Colours and markers: one pair per method, the same in every figure, table and theme.
+"""Colours and markers: one pair for each method, the same in every figure and table.
 
-Figures are drawn in the light theme's colours; in the page each of them becomes a CSS variable.
-The hues are Okabe and Ito's (2008) and Tol's, darkened to a contrast of 3 on white; markers tell
-methods apart where hues do not.
+Figures are drawn in the colours of the light theme; in the page each colour becomes a CSS variable.
+The hues are Okabe and Ito's (2008) and Tol's, darkened to a contrast of 3 on white; markers distinguish
+methods where hues do not.
 """
 from matplotlib.markers import MarkerStyle
 
@@ -41,7 +41,7 @@ def marker_size(index, size):
 
 
 def dashes(index):
-    """Methods beyond the eighth share a hue with an earlier one and are dashed."""
+    """The dash pattern of a method's line. Methods beyond the eighth use the same hues again, with dashes."""
     return "-" if index < HUES else (0, (4, 2))
 
 

@@ -1,8 +1,8 @@
-"""Error against control: what a tolerance or a step really delivers, with the observed order."""
+"""Error against control (tolerance or step), with observed orders."""
 import numpy as np
 
 from . import measures, formatting
-from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
+from .runs import (LANE_GAP, add_failures, draw_runs, draw_unresolved, end_fraction, label_runs, lane_height,
                    say_nothing_finished)
 from .layout import LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
@@ -34,7 +34,7 @@ def _failing(comparison, problem, kind):
 
 
 def _entries(comparison, problem, measure, indices):
-    """Labels with the observed slope: (index, words, muted)."""
+    """Labels of the methods, with the observed slopes: (index, words, muted)."""
     entries = []
     for k in indices:
         method = comparison.methods[k]
@@ -54,7 +54,8 @@ def guide_orders(kind, comparison, problem, measure, indices):
 
 
 def _draw_guides(axes, orders, runs, kind):
-    """Dashed lines of given slope below the runs; for a tolerance 'error = rtol' where it is in sight."""
+    """Draws dashed lines of the given slopes below the runs; for a tolerance the line 'error = rtol', if within the
+    axes."""
     points = np.array([(x, y) for found in runs.values() for x, y, _ in found])
     first, last = points[:, 0].min(), points[:, 0].max()
     low, high = axes.get_ylim()
@@ -75,7 +76,7 @@ def _draw_guides(axes, orders, runs, kind):
 
 
 def _panel(layout, box, rows, comparison, problem, measure, kind, first):
-    """One kind of control: axes, lane, runs, guides; returns the axes and the runs."""
+    """Draws the panel of one kind of control: axes, lane, runs and guides. Returns the axes and the runs."""
     left, top, width, height = box
     runs, failing = _runs(comparison, problem, kind, measure), _failing(comparison, problem, kind)
     axes = layout.axes(*box)
@@ -90,11 +91,7 @@ def _panel(layout, box, rows, comparison, problem, measure, kind, first):
         _draw_guides(axes, guide_orders(kind, comparison, problem, measure, runs), runs, kind)
     for k, found in runs.items():
         draw_runs(axes, k, found, {p.index for _, _, p in found if comparison.is_near_reference(p, measure)})
-    if failing:
-        lane = layout.axes(left, top - LANE_GAP - rows, width, rows, sharex=axes)
-        draw_lane(lane, failing, lambda p: p.control.value)
-        if first:
-            layout.text(left - 8, top - LANE_GAP - rows / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
+    add_failures(layout, axes, box, failing, rows, lambda p: p.control.value, first)
     layout.text(left + width / 2, top + height + 40, label, ha="center")
     if not first:
         axes.tick_params(labelleft=False)
@@ -102,7 +99,7 @@ def _panel(layout, box, rows, comparison, problem, measure, kind, first):
 
 
 def _boxes(width, kinds, lanes, margin, flat):
-    """(left, top, width, height) per kind: beside each other, or below each other where narrow."""
+    """(left, top, width, height) of each kind's panel. Panels are side by side, or stacked on narrow pages."""
     narrow = width < WIDE
     left, right, height = (46, 20, 250) if narrow else (54, margin, 340)
     height = 90 if flat else height
@@ -132,11 +129,8 @@ def draw_error_against_control(comparison, problem, measure, width):
     if not drawn:
         for (axes, _), box in zip(panels, boxes):
             say_nothing_finished(layout, axes, box)
-    if layout.narrow:
-        layout.legend(bottom - 10, entries, columns)
-    else:
-        ends = {k: end_fraction(axes, found[k][0][1]) for axes, found in panels for k in found}
-        label_right(layout, boxes[-1], entries, [ends[k] for k in drawn])
+    ends = {k: end_fraction(axes, found[k][0][1]) for axes, found in panels for k in found}
+    label_runs(layout, boxes[-1], entries, [ends[k] for k in drawn], columns)
     return layout
 
 

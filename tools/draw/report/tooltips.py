@@ -1,4 +1,4 @@
-"""What is shown under the pointer: lines of label and value for every run, as data for the page's script."""
+"""Tooltips: pairs of label and value for every run, as data for the page's script."""
 import math
 
 from . import formatting

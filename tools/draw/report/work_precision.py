@@ -2,17 +2,17 @@
 import numpy as np
 
 from . import measures, formatting
-from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
+from .runs import (LANE_GAP, add_failures, draw_runs, draw_unresolved, end_fraction, label_runs, lane_height,
                    say_nothing_finished)
 from .layout import LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
-from .theme import LIGHT, colour
+from .theme import colour
 
-SHOW_BAND_WITHIN = 30.0  # of the smallest error; a band further below would squeeze the lines
+SHOW_BAND_WITHIN = 30.0  # the band of unresolved errors is shown if its bound is above the smallest error / 30
 
 
 def runs_of(comparison, problem, method, measure, clock):
-    """(seconds, error, point) of the finished runs that a logarithmic diagram can show."""
+    """(seconds, error, point) of the finished runs whose values are positive and finite."""
     found = [(p.seconds(clock), p.error(measure), p) for p in comparison.finished(problem, method.id)]
     return [run for run in found if positive(run[:2]).size == 2]
 
@@ -24,7 +24,7 @@ def failing_methods(comparison, problem):
 
 
 def error_limits(errors, bound):
-    """Limits of the error axis, down to the band of unresolved errors where it is near."""
+    """Limits of the error axis. They include the band of unresolved errors if it is near the errors."""
     errors = positive(errors)
     low, high = limits(errors)
     if errors.size and bound > errors.min() / SHOW_BAND_WITHIN:
@@ -57,7 +57,7 @@ def _description(problem, measure, runs, comparison):
 
 
 def _whiskers(axes, index, runs, clock):
-    """Thin lines from the fastest to the slowest repeat."""
+    """Draws thin lines from the fastest to the slowest repeat."""
     spans = [(p.clocks[clock].min, p.clocks[clock].max, error) for _, error, p in runs]
     spans = [s for s in spans if positive(s[:2]).size == 2 and s[1] > 1.05 * s[0]]
     if spans:
@@ -67,7 +67,8 @@ def _whiskers(axes, index, runs, clock):
 
 
 def _layout(width, entries, failing):
-    """The layout and the boxes of axes and lane, (left, top, width, height); flat where no run has finished."""
+    """The layout, the box of the axes (left, top, width, height; flat if no run has finished), the height of the lane,
+    and the number of columns of the legend."""
     narrow = width < WIDE
     lane = lane_height(failing)
     left, right = (46, 20) if narrow else (54, side_margin(entries))
@@ -76,14 +77,14 @@ def _layout(width, entries, failing):
     height = max(90, 20 * len(entries)) if all(failed for *_, failed in entries) else height
     below = 62 + (legend_height(entries, columns) if narrow else 0)
     layout = PixelLayout(width, top + height + below)
-    return layout, (left, top, width - left - right, height), (left, 40, width - left - right, lane), columns
+    return layout, (left, top, width - left - right, height), lane, columns
 
 
 @styled
 def draw_work_precision(comparison, problem, measure, clock, width):
     runs = {k: runs_of(comparison, problem, m, measure, clock) for k, m in enumerate(comparison.methods)}
     failing, entries = failing_methods(comparison, problem), _entries(comparison, problem, runs)
-    layout, box, lane_box, columns = _layout(width, entries, failing)
+    layout, box, lane, columns = _layout(width, entries, failing)
     layout.description = _description(problem, measure, runs, comparison)
     bound = problem.reference.reach(measure)
     axes = layout.axes(*box)
@@ -97,20 +98,14 @@ def draw_work_precision(comparison, problem, measure, clock, width):
             _whiskers(axes, k, found, clock)
             draw_runs(axes, k, found, hollow)
     annotate(layout, axes, box, measure, clock)
-    if failing:
-        lane = layout.axes(*lane_box, sharex=axes)
-        draw_lane(lane, failing, lambda p: p.seconds(clock))
-        layout.text(box[0] - 8, lane_box[1] + lane_box[3] / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
-    if layout.narrow:
-        layout.legend(box[1] + box[3] + 52, entries, columns)
-    else:
-        ends = [end_fraction(axes, runs[k][-1][1]) if runs[k] else 0.0 for k, _, _ in entries]
-        label_right(layout, box, entries, ends)
+    add_failures(layout, axes, box, failing, lane, lambda p: p.seconds(clock))
+    ends = [end_fraction(axes, runs[k][-1][1]) if runs[k] else 0.0 for k, _, _ in entries]
+    label_runs(layout, box, entries, ends, columns)
     return layout
 
 
 def annotate(layout, axes, box, measure, clock):
-    """Words at the axes; without any finished run they say so."""
+    """Labels the axes, or writes that no run has finished."""
     left, top, width, height = box
     layout.text(0, 16, title_of(measure), weight="bold")
     name = "Wall time" if clock == "wall" else "CPU time"

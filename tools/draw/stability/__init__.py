@@ -1,7 +1,5 @@
-"""One page and figures from stability.json, what `orthodyn stability` has written."""
+"""One page and figures from stability.json (`orthodyn stability`)."""
 from pathlib import Path
-
-FILE = "stability.json"
 
 
 def write_stability_report(result, out=None):
@@ -9,16 +7,15 @@ def write_stability_report(result, out=None):
     from .figure import write_figures
     from .page import page
     from .reading import read_matrix
-    from ..view.beside import with_view
+    from .view_source import view_source
+    from ..view.beside import with_view, write_page
     matrix, folder = read_matrix(result), Path(result)
     path = out or folder / "report.html"
-    path.parent.mkdir(parents=True, exist_ok=True)
 
-    def write(view=None):
-        path.write_text(page(matrix, folder, view), encoding="utf-8")
+    def report(view):
+        return page(matrix, folder, view)
 
-    write()
-    yield path
+    yield write_page(path, report)
     yield from write_figures(matrix, folder / "pictures")
     has_states = any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials)
-    yield from with_view(path, folder, has_states, write)
+    yield from with_view(path, (lambda: view_source(folder)) if has_states else None, report)

@@ -1,17 +1,17 @@
-"""The answer: integrators in order, the cases that hardly any passes, what a variant loses."""
+"""The answer of a stability study: ranking of integrators, hardest cases, and trials that pass in one variant only."""
 from ..report import formatting
 from ..report.markup import Html, joined, scrolling, tag
-from ..report.tables import caption, number
+from ..report.tables import headed_table, number
 from .grades import GRADES, MEANING, named
 from .grid import DAGGER
 from .ranking import hard_cases, lost, ranked
 
-EQUAL = 3  # at most so many are named together as the best
-SHORT = 6  # rows of a table that is not folded
+EQUAL = 3  # largest number of integrators that are named as the best
+SHORT = 6  # largest number of rows of a table that is shown unfolded
 
 
 def _best(order):
-    """Names with as many passes and as few fails as the first."""
+    """The best integrators: those with as many passes and fails as the first."""
     first = order[0][1]
     return [name for name, t in order if (t["pass"], t["fail"]) == (first["pass"], first["fail"])]
 
@@ -37,7 +37,7 @@ def headline(matrix):
 
 
 def _share(t):
-    """A bar of the grades, as wide as all of them."""
+    """A bar of full width that shows the share of each grade."""
     parts = "".join(f'<i class="g-{grade}" style="flex:{t[grade]}"></i>' for grade in GRADES if t[grade])
     return tag("td", tag("span", Html(parts), class_="share", aria_hidden="true"), class_="word")
 
@@ -51,16 +51,15 @@ def _ranking(matrix, variant):
     rows = [tag("tr", tag("th", name, scope="row"), _share(t),
                 *(number(t[grade]) for grade in ("fail", "degraded", "pass", "refused")),
                 number(formatting.plain_seconds(t.cpu))) for name, t in ranked(matrix, variant)]
-    title = caption(joined([tag("strong", variant), ": integrators by passes, then by fails"]))
-    return scrolling(tag("table", title, tag("thead", tag("tr", *heads)), tag("tbody", *rows), class_="ranking"),
-                     label=f"Integrators in order, {variant}")
+    title = joined([tag("strong", variant), ": integrators by passes, then by fails"])
+    return headed_table(title, heads, rows, f"Integrators in order, {variant}", "ranking")
 
 
 def _hard(matrix, variant):
     found = hard_cases(matrix, variant)
     if not found:
         return None
-    alike = {}  # cases by how many passed
+    alike = {}  # cases by the number of passes
     for case, t in found:
         alike.setdefault(f"{t['pass'] or 'none'} of {t.tried}", []).append(case)
     items = [tag("li", count, ": ", joined((_linked(matrix, case) for case in cases), ", "))
@@ -69,7 +68,7 @@ def _hard(matrix, variant):
 
 
 def _linked(matrix, case):
-    """The case's name, leading to its end states; a dagger where the model is at fault."""
+    """The case's name, with a link to its end states, and with a dagger if the model is at fault."""
     mark = tag("sup", DAGGER, title=case.model) if case.model else None
     return joined([tag("a", case.label, href=f"#{matrix.case_id(case.label)}"), mark])
 
@@ -82,7 +81,7 @@ def _lost_row(matrix, label, trials):
 
 
 def _losses(matrix, variant):
-    """Sentence and table of what passes with the first variant and not with this one."""
+    """A sentence and a table of the trials that pass with the first variant but not with this one."""
     first = matrix.variants[0]
     gone, won = lost(matrix, variant, first), lost(matrix, first, variant)
     both = sum(1 for t in matrix.of(first) if t.grade == "pass" and matrix.trial(variant, t.case, t.integrator))

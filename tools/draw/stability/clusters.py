@@ -1,20 +1,21 @@
-"""Which end states are the same, which are apart, and which have left the neighbourhood of the body."""
+"""Groups end states that are the same, and finds bodies that are exploded or far apart."""
 import numpy as np
 
-SAME = 0.02  # of the body's extent, the largest distance of a node
-EXPLODED = 4.0  # times the extent that those have that did well
-SPREAD = 2.5  # times the extent: bodies further apart are each drawn about their own middle
+SAME = 0.02  # largest distance of a node between states of a cluster, as a fraction of the body's extent
+EXPLODED = 4.0  # multiple of the usual extent above which a body counts as exploded
+SPREAD = 2.5  # multiple of the extent; bodies further apart are each drawn about their own centre
 
 
 def extent(points):
-    """Diagonal of the box around them."""
+    """Diagonal of the bounding box."""
     return float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
 def same_states(positions, distance):
-    """Lists of indices: [n, 3] positions within `distance` of the first of their list; the most common state first.
+    """Groups states whose nodes all lie within `distance` of those of the group's first state.
 
-    The first is the state with the most neighbours that are in no list yet.
+    `positions`: [n, 3] of each state. Returns lists of indices, the longest list first. Each list starts with the state
+    that has the most neighbours not yet in a list.
     """
     near = np.array([[np.linalg.norm(a - b, axis=1).max() <= distance for b in positions] for a in positions])
     left, found = np.ones(len(positions), bool), []
@@ -28,13 +29,13 @@ def same_states(positions, distance):
 
 
 def usual_extent(rest, well):
-    """Of the rest shape, or of the states of those that did `well` where most of them are larger."""
+    """The extent of the rest shape, or the median extent of the states `well` if that is larger."""
     sizes = sorted(extent(x) for x in well)
     return max([extent(rest), *sizes[(len(sizes) - 1) // 2:][:1]])
 
 
 def are_apart(positions, size):
-    """Whether one window around all would make each of them small."""
+    """Whether the bodies are so far apart that each would be small in a common window."""
     return extent(np.concatenate(positions)) > SPREAD * max(size, *(extent(x) for x in positions))
 
 
@@ -43,12 +44,12 @@ def as_they_are(rest, positions):
 
 
 def about_middle(rest, positions):
-    """Moved so that its middle is that of the rest shape."""
+    """Translated to the centre of the rest shape."""
     return positions - (positions.mean(axis=0) - rest.mean(axis=0))
 
 
 def turned_back(rest, positions):
-    """About its middle and turned onto the rest shape as well as can be (Kabsch 1976); mirror images stay mirrored."""
+    """Translated and rotated onto the rest shape (Kabsch 1976), without reflection."""
     middle = rest.mean(axis=0)
     u, _, v = np.linalg.svd((positions - positions.mean(axis=0)).T @ (rest - middle))
     u[:, -1] *= np.sign(np.linalg.det(u @ v))

@@ -1,4 +1,4 @@
-"""The last states of a case's trials: read, sorted into clusters, drawn as small pictures."""
+"""The last states of a case's trials, which are read, sorted into clusters and drawn as small pictures."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +13,8 @@ from .clusters import (EXPLODED, SAME, about_middle, are_apart, as_they_are, ext
 FILE = "end.vtu"
 WELL = ("pass", "degraded")
 COLOUR, RANGE = "det_f", (0.0, 2.0)
-POINT = 1e-3  # of the usual extent, which a picture cannot show
-MANY = 4  # end states of a variant, from which on it is asked whether they only differ by how they are turned
+POINT = 1e-3  # fraction of the usual extent, below which a body is too small to draw
+MANY = 4  # number of end states per variant, above which rotations are removed if that merges many states
 
 
 @dataclass(frozen=True)
@@ -25,21 +25,22 @@ class State:
 
     @property
     def inverted(self):
-        """Number of elements that are flat or turned inside out."""
+        """The number of elements that are flat or inside out."""
         volumes = self.frame.cell_fields.get(COLOUR)
         return 0 if volumes is None else int((volumes <= 0).sum())
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """Trials that end in the same state, that of the `leader`, which a frame of the case's scene shows."""
+    """Trials with the same end state. It is shown by the state of the `leader`, which is frame `index` of the case's
+    scene."""
     trials: list
     leader: State
     index: int
 
 
 class ClusterStates(Series):
-    """The states that stand for clusters, as the frames of a series."""
+    """The states of the clusters' leaders as a Series."""
 
     def __init__(self, folder, frames):
         self.folder, self._frames = folder, frames
@@ -50,7 +51,7 @@ class ClusterStates(Series):
 
 
 def _read(folder, trial):
-    """The trial's State; None where it left none, or none that can be drawn."""
+    """The trial's State; None if the trial has no state that can be drawn."""
     path = folder / trial.folder / FILE
     if not trial.folder or not path.is_file():
         return None
@@ -71,13 +72,14 @@ def _moved(state, positions):
 
 
 def _of_one_mesh(states):
-    """Those with the mesh of the first."""
+    """The states with the same mesh as the first one."""
     return [s for s in states if np.array_equal(s.frame.tets, states[0].frame.tets)
             and s.frame.points.shape == states[0].frame.points.shape]
 
 
 class EndStates:
-    """Of one case. `clusters`, `exploded` [(trial, times the usual extent)] and `absent` trials, by variant."""
+    """End states of a case, by variant: `clusters`; `exploded`, a list of (trial, extent / usual extent); and `absent`,
+    the trials without a state."""
 
     def __init__(self, matrix, folder, case):
         trials = matrix.of(case=case.label)
@@ -103,12 +105,12 @@ class EndStates:
         return not extent(state.positions) <= EXPLODED * self.size
 
     def _sorted(self, states, place):
-        """Positions by state, and the lists of states that are the same."""
+        """The positions of each state, and lists of the states that are the same."""
         positions = [place(s.frame.points, s.positions) for s in states]
         return positions, same_states(positions, SAME * self.size)
 
     def _placing(self, groups):
-        """Where bodies are drawn: where they are, about one middle, or turned back as well where that tells more."""
+        """How bodies are placed in pictures: unchanged, centred, or also rotated back if that merges many states."""
         near = [s.positions for states in groups for s in states]
         place = about_middle if near and are_apart(near, self.size) else as_they_are
         numbers = [[len(self._sorted(states, way)[1]) for states in groups] for way in (place, turned_back)]
@@ -131,7 +133,7 @@ class EndStates:
         return ClusterStates(self._folder, self._frames)
 
     def scene(self, indices):
-        """One camera, window and range of colours for all clusters of the case that are shown."""
+        """The Scene of the case's clusters that are shown: one camera, window and colour range for all of them."""
         if self._scene is None:
             self._scene = Scene(self.series(), indices,
                                 PictureSpec(color=COLOUR, limits=RANGE, ghost=True))

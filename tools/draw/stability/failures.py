@@ -6,18 +6,18 @@ from .formatting import computed, own_reason
 from .grades import named
 from .grid import breakable, row_id
 
-HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", False), ("Worst figure", False),
+HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", False), ("Worst expectation", False),
          ("Computed", True), ("Expected", True), ("Limit ±", True), ("Reached t [s]", True), ("Wall [s]", True),
          ("Reason", False))
 
 
 def _row(trial):
-    figure = trial.worst
-    cells = (figure.title, computed(figure), formatting.exponent(figure.expected, 4),
-             formatting.exponent(figure.limit)) if figure else [""] * 4
+    worst = trial.worst
+    cells = (worst.title, computed(worst), formatting.exponent(worst.expected, 4),
+             formatting.exponent(worst.limit)) if worst else [""] * 4
     return tag("tr", tag("th", breakable(trial.case), scope="row"), tag("td", trial.variant, class_="word"),
                tag("td", trial.integrator, class_="word"), tag("td", named(trial.grade), class_="word"),
-               tag("td", cells[0], class_="word", title=figure.source if figure else None), *map(number, cells[1:]),
+               tag("td", cells[0], class_="word", title=worst.source if worst else None), *map(number, cells[1:]),
                number(formatting.general(trial.time_reached)), number(formatting.plain_seconds(trial.wall)),
                tag("td", own_reason(trial), class_="message"), id=row_id(trial))
 

@@ -1,22 +1,19 @@
-"""The matrix as a picture for papers and the documentation: SVG and PNG."""
-import re
-
-import matplotlib
+"""The matrix as a picture for papers and the documentation, as SVG and PNG."""
 from matplotlib.patches import FancyBboxPatch
 
-from ..report.figures import PAPER, PAPER_DPI
+from ..report.figure_files import file_name, write_paper_figure
 from ..report.layout import LETTER, PixelLayout, styled
 from ..report.theme import LIGHT
 from .grades import GRADES, field_colour, symbol_colour
 from .ranking import ranked, tally
 
-FIELD, GAP, BETWEEN = 18, 2, 34  # px
+FIELD, GAP, BETWEEN = 18, 2, 34  # px: size of a field, gap between fields, gap between variants
 STEP = FIELD + GAP
 LINE = 1.6
 
 
 def _draw_field(axes, x, y, grade):
-    """A field with its symbol, its top left corner at (x, y)."""
+    """Draws a field with its symbol. Its top left corner is at (x, y)."""
     axes.add_patch(FancyBboxPatch((x + 1, y + 1), FIELD - 2, FIELD - 2, boxstyle="round,pad=1,rounding_size=3",
                                   fc=field_colour(grade), ec="none"))
     for stroke in GRADES[grade]:
@@ -25,7 +22,7 @@ def _draw_field(axes, x, y, grade):
 
 
 def _canvas(layout):
-    """Axes in the layout's pixels, from its top left corner."""
+    """Axes whose coordinates are the layout's pixels, counted from its top left corner."""
     axes = layout.axes(0, 0, layout.width, layout.height)
     axes.set(xlim=(0, layout.width), ylim=(layout.height, 0))
     axes.axis("off")
@@ -59,7 +56,7 @@ def _variant(matrix, axes, left, top, variant, columns):
 
 @styled
 def draw_matrix(matrix, variants):
-    """Cases by integrators, with the variants side by side."""
+    """Draws the matrix of cases (rows) and integrators (columns), with the variants side by side."""
     columns = [name for name, _ in ranked(matrix)]
     names = max((len(case.label) for case in matrix.cases), default=0) * LETTER + 14
     top = 34 + max((len(name) for name in columns), default=0) * LETTER
@@ -80,21 +77,15 @@ def draw_matrix(matrix, variants):
 
 
 def _pictures(matrix):
-    """(name, variants): all side by side, and each alone."""
+    """(name, variants) of each picture: all variants side by side, and each variant alone."""
     yield "matrix", matrix.variants
     if len(matrix.variants) > 1:
         for variant in matrix.variants:
-            yield "matrix_" + (re.sub(r"[^\w.-]+", "_", variant).strip("._") or "variant"), [variant]
+            yield "matrix_" + (file_name(variant).strip("._") or "variant"), [variant]
 
 
 def write_figures(matrix, folder):
-    """Writes matrix.svg and .png, and matrix_VARIANT of each; yields their paths."""
+    """Writes matrix.svg and matrix.png, and both also as matrix_VARIANT. Yields their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, variants in _pictures(matrix):
-        layout = draw_matrix(matrix, variants)
-        svg, png = (folder / f"{name}.{kind}" for kind in ("svg", "png"))
-        with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": name}):
-            layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
-        layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
-        yield svg
-        yield png
+        yield from write_paper_figure(draw_matrix(matrix, variants), folder / name)

@@ -3,19 +3,19 @@ import math
 
 from ..report import formatting
 
-LONG = 220  # letters of a reason under the pointer
+LONG = 220  # largest number of letters of a reason in a tooltip
 
 
-def computed(figure):
-    """'0.00135', '3.35e3'; a figure that is none is said to be none."""
-    if formatting.known(figure.computed):
-        return formatting.exponent(figure.computed, 3)
-    return "never" if figure.title.startswith("onset") else "not finite"
+def computed(expectation):
+    """The computed value: '0.00135', '3.35e3', or words if it is not finite."""
+    if formatting.known(expectation.computed):
+        return formatting.exponent(expectation.computed, 3)
+    return "never" if expectation.title.startswith("onset") else "not finite"
 
 
-def expected(figure):
-    limit = f" ± {formatting.exponent(figure.limit)}" if formatting.known(figure.limit) else ""
-    return formatting.exponent(figure.expected, 4) + limit
+def expected(expectation):
+    limit = f" ± {formatting.exponent(expectation.limit)}" if formatting.known(expectation.limit) else ""
+    return formatting.exponent(expectation.expected, 4) + limit
 
 
 def reached(trial):
@@ -25,14 +25,14 @@ def reached(trial):
 
 
 def own_reason(trial):
-    """The reason, but where it only repeats the worst figure."""
-    if trial.worst and trial.reason.startswith((f"{trial.worst.title} is ", f"{trial.worst.title} never came")):
+    """The reason of the grade, or '' if it only repeats the worst expectation."""
+    if trial.worst and trial.reason.startswith((f"{trial.worst.title} is ", f"{trial.worst.title} did not occur")):
         return ""
     return trial.reason
 
 
 def tooltip(trial):
-    """What is shown under the pointer, as data for the page's script."""
+    """A trial's tooltip, as data for the page's script."""
     rows = [["Grade", trial.grade]]
     if trial.worst:
         rows += [[trial.worst.title, computed(trial.worst)], ["Expected", expected(trial.worst)]]
@@ -49,9 +49,9 @@ def case_tooltip(case):
 
 
 def spoken(trial):
-    """A field of the matrix for those who hear it."""
-    figure = trial.worst
+    """The text alternative of a trial's field in the matrix."""
+    worst = trial.worst
     text = f"{trial.integrator} on {trial.case}: {trial.grade}"
-    if trial.grade != "pass" and figure and not math.isnan(figure.limit):
-        text += f", {figure.title} {computed(figure)}, expected {expected(figure)}"
+    if trial.grade != "pass" and worst and not math.isnan(worst.limit):
+        text += f", {worst.title} {computed(worst)}, expected {expected(worst)}"
     return text + (f", {own_reason(trial)}" if own_reason(trial) and trial.grade == "fail" else "")

@@ -6,7 +6,7 @@ from .end_states import EndStates
 from .grades import GRADES, named
 from .thumbnail import picture
 
-MOST = 5  # pictures of a case and variant
+MOST = 5  # largest number of pictures for a case and variant
 
 READ = ("Trials whose nodes all end within 2 % of the body's extent of each other share a picture, the most common "
         "state first. Grey lines are the shape at rest. Red has grown, blue has shrunk (white: the volume at rest, the "
@@ -24,7 +24,7 @@ def _names(trials, grade):
 
 
 def _by_grade(trials):
-    """A line for each grade: symbol, word, integrators."""
+    """A line for each grade: the symbol, the word, and the integrators with this grade."""
     return joined(tag("p", named(grade), ": ", _names(trials, grade), class_="who") for grade in GRADES
                   if any(t.grade == grade for t in trials))
 
@@ -34,7 +34,7 @@ def _alt(case, variant, cluster):
 
 
 def _damage(states, cluster):
-    """What a picture does not show well."""
+    """Words about damage that the picture hardly shows."""
     if states.is_a_point(cluster):
         return ", shrunk to a point"
     number = cluster.leader.inverted
@@ -58,7 +58,7 @@ def _times(ratios):
 
 
 def _in_words(states, variant, more):
-    """What has no picture."""
+    """Words about the trials that have no picture."""
     exploded, absent = states.exploded[variant], states.absent[variant]
     if more:
         yield tag("p", tag("strong", f"{len(more)} more end state{'s' if len(more) > 1 else ''}: "),

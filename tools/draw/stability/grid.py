@@ -1,4 +1,4 @@
-"""The matrix as a table of fields: cases by integrators, for each variant."""
+"""The matrix as a table of fields for each variant, with cases as rows and integrators as columns."""
 from ..report import formatting
 from ..report.markup import Html, joined, scrolling, tag
 from ..report.tables import caption
@@ -10,12 +10,12 @@ DAGGER = "†"
 
 
 def breakable(label):
-    """Long names may break after their underscores."""
+    """The label, in which lines may break after underscores."""
     return joined(label.split("_"), Html("_<wbr>"))
 
 
 def row_id(trial):
-    """Of its row in the table of trials that did not pass."""
+    """HTML id of the trial's row in the table of trials that did not pass."""
     return f"trial-{trial.index}"
 
 
@@ -66,7 +66,7 @@ def _models(matrix):
 
 
 def grid(matrix):
-    """Columns have one order for all variants, that of the ranking over all trials."""
+    """The tables of all variants. Their columns have the same order, which is the ranking over all trials."""
     columns = [name for name, _ in ranked(matrix)]
     return joined([_legend(), tag("div", *(_table(matrix, v, columns) for v in matrix.variants), class_="pair"),
                    _models(matrix), tag("p", "Integrators stand in the order of their passes in all variants.",

@@ -1,4 +1,4 @@
-"""A matrix of hard cases: trials of integrators on cases, in variants of the force."""
+"""A stability matrix: trials of integrators on hard cases, in variants."""
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -8,12 +8,12 @@ class Case:
     label: str
     file: str
     sentence: str
-    model: str  # why the model itself is at fault, or ''
+    model: str  # reason why the model itself is at fault, or ''
 
 
 @dataclass(frozen=True)
-class Figure:
-    """What a trial was judged by; unknown numbers are nan."""
+class Expectation:
+    """An expectation and the value computed by a trial; unknown numbers are nan."""
     title: str
     computed: float
     expected: float
@@ -30,8 +30,8 @@ class Trial:
     integrator: str
     folder: str
     grade: str
-    reason: str  # why it is no pass, shortened
-    worst: Figure  # or None
+    reason: str  # why the trial did not pass, shortened
+    worst: Expectation  # the expectation that decided the grade, or None
     time_reached: float
     wall: float
     cpu: float
@@ -50,13 +50,13 @@ class Matrix:
     at: str
     machine: dict
     versions: dict
-    limit: float  # seconds of a trial
+    limit: float  # time limit of a trial (s)
     complete: bool
     cases: list
     variants: list
     integrators: list
     trials: list
-    suspected: list = ()  # sentences on expectations that all integrators miss alike
+    suspected: list = ()  # sentences about expectations that all integrators miss by about the same amount
 
     @property
     def planned(self):
@@ -67,11 +67,11 @@ class Matrix:
         return {(t.variant, t.case, t.integrator): t for t in self.trials}
 
     def trial(self, variant, case, integrator):
-        """The trial, or None where it has not been made yet."""
+        """The trial, or None if it has not been run yet."""
         return self._fields.get((variant, case, integrator))
 
     def of(self, variant=None, case=None, integrator=None):
-        """Trials of the names given."""
+        """The trials with the given variant, case and integrator; None stands for all."""
         return [t for t in self.trials if variant in (None, t.variant) and case in (None, t.case)
                 and integrator in (None, t.integrator)]
 
@@ -79,5 +79,5 @@ class Matrix:
         return next(c for c in self.cases if c.label == label)
 
     def case_id(self, label):
-        """Of its part of the page."""
+        """HTML id of the section about the case."""
         return f"case-{next(k for k, c in enumerate(self.cases) if c.label == label)}"

@@ -1,4 +1,4 @@
-"""A small picture of a body as the text of an image in a page."""
+"""Thumbnail of a body as a data URI."""
 import base64
 import io
 
@@ -7,15 +7,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-WIDTH, LOWEST, HIGHEST = 180, 100, 180  # px of the page
-SHARPNESS = 2  # pixels of the picture in one of the page
-COLOURS = 96  # of the palette
-BUDGET = 3000  # small triangles
-FAST_OCTREE = 2  # the one method of Pillow's that keeps what is transparent
+WIDTH, LOWEST, HIGHEST = 180, 100, 180  # pixels of the page: width, smallest and largest height
+SHARPNESS = 2  # picture pixels per page pixel
+COLOURS = 96  # number of colours in the palette
+BUDGET = 3000  # largest number of small triangles
+FAST_OCTREE = 2  # Pillow's only method of quantisation that keeps transparency
 
 
 def height(scene):
-    """Pixels of the page that the scene's window asks for."""
+    """Height of the thumbnail (pixels of the page) that fits the scene's window."""
     across, up = scene.window.size
     return int(np.clip(WIDTH * up / across, LOWEST, HIGHEST))
 
@@ -34,7 +34,7 @@ def _drawn(scene, index):
 
 
 def picture(scene, index):
-    """(data URI, width, height) of the body at a frame, on a transparent ground."""
+    """(data URI, width, height) of a picture of the body at a frame, with a transparent background."""
     stream = io.BytesIO()
     Image.fromarray(_drawn(scene, index), "RGBA").quantize(COLOURS, method=FAST_OCTREE).save(stream, "PNG",
                                                                                              optimize=True)

@@ -1,7 +1,5 @@
-"""One page, pictures of points and paper figures from sweep.json, what `orthodyn sweep` has written."""
+"""One page, pictures of points and paper figures from sweep.json (`orthodyn sweep`)."""
 from pathlib import Path
-
-FILE = "sweep.json"
 
 
 def write_sweep_report(result, out=None):
@@ -10,17 +8,16 @@ def write_sweep_report(result, out=None):
     from .figures import write_paper_figures
     from .page import page
     from .reading import read_sweep
-    from ..view.beside import with_view
+    from .view_source import view_source
+    from ..view.beside import with_view, write_page
     sweep, folder = read_sweep(result), Path(result)
     gallery = draw_gallery(sweep, folder, folder / "pictures" / "points.png")
     path = out or folder / "report.html"
-    path.parent.mkdir(parents=True, exist_ok=True)
 
-    def write(view=None):
-        path.write_text(page(sweep, folder, gallery, view), encoding="utf-8")
+    def report(view):
+        return page(sweep, folder, gallery, view)
 
-    write()
-    yield path
+    yield write_page(path, report)
     yield from gallery
     yield from write_paper_figures(sweep, folder / "pictures")
-    yield from with_view(path, folder, bool(gallery), write)
+    yield from with_view(path, (lambda: view_source(folder)) if gallery else None, report)

@@ -1,11 +1,11 @@
-"""Curves: a figure against a variable, points as marks, the closed form as a line, and how far apart they are."""
+"""Curves of a metric against a variable: points as marks, the closed form as a line, and the difference of the two."""
 import math
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ..report import theme
-from ..report.runs import label_right
+from ..report.runs import label_runs
 from ..report.scale import error_tick, limits, positive, set_log
 from ..report.layout import (WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled)
 from ..report.theme import LIGHT
@@ -28,12 +28,12 @@ def _layout(width, entries, height):
 
 
 def power_tick(x):
-    """1, 10, 1000, but 10⁻⁴ and 10⁶."""
+    """The label of a tick: 1, 10, 1000, but 10⁻⁴ and 10⁶."""
     return f"{x:g}" if 0.99e-3 < x < 2e4 else error_tick(x)
 
 
 def with_ends(axes, which, values, log, most):
-    """Ticks at both ends of the values; those that would crowd an end give way."""
+    """Adds ticks at both ends of the values, and removes ticks too close to them."""
     finite = [v for v in values if math.isfinite(v)]
     if not finite or min(finite) == max(finite):
         return
@@ -48,7 +48,7 @@ def with_ends(axes, which, values, log, most):
 
 
 def scaled(axes, which, values, log=False, most=7):
-    """A round axis around the values; logarithmic where that is wanted and possible."""
+    """Scales an axis to round limits around the values; logarithmic if wanted and possible."""
     finite = [v for v in values if math.isfinite(v)]
     if log and len(positive(finite)) == len(finite) and finite:
         return set_log(axes, which, *limits(finite, pad=0.05, least=0.3), power_tick, most)
@@ -67,7 +67,7 @@ def scaled(axes, which, values, log=False, most=7):
 
 
 def _marks(axes, index, rows, with_line):
-    """Rows are (x, y, point)."""
+    """Draws marks. `rows`: (x, y, point)."""
     colour = theme.colour(index)
     rows = [r for r in rows if math.isfinite(r[1])]
     if with_line and rows:
@@ -79,7 +79,7 @@ def _marks(axes, index, rows, with_line):
 
 
 def _same(curves):
-    """All closed forms are one and the same line."""
+    """Whether all closed forms are the same line."""
     first = curves[0]
     return len(curves) > 1 and all(len(c) == len(first) and np.allclose(c, first, rtol=1e-12, atol=0, equal_nan=True)
                                    for c in curves)
@@ -109,14 +109,11 @@ def _annotate(layout, axes, box, plan, sweep, title, entries, columns):
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xticks(range(len(levels)), [shortened(str(v), 10) for v in levels])
     layout.text(left + width / 2, top + height + 38, plan.x.heading, ha="center")
-    if layout.narrow:
-        layout.legend(top + height + 52, entries, columns)
-    elif entries:
-        label_right(layout, box, entries, [0] * len(entries))
+    label_runs(layout, box, entries, [0] * len(entries), columns)
 
 
 def _failure_line(axes, limit):
-    """Thin, and only where the axis comes near it: it is not to squeeze the points."""
+    """Draws a thin line at the value that means failure, if it is within the axis or near it."""
     low, high = axes.get_ylim()
     if low <= limit <= high:
         axes.axhline(limit, color=LIGHT["muted"], lw=0.8, zorder=1)
@@ -125,7 +122,7 @@ def _failure_line(axes, limit):
 
 
 def _strokes(axes, index, rows, end):
-    """From each mark to where it would be without the error of the mesh."""
+    """Draws a stroke from each mark to the value corrected by the mesh error."""
     for x, y, point in rows:
         if math.isfinite(y) and math.isfinite(end(point)):
             axes.plot([x, x], [y, end(point)], color=theme.colour(index), lw=1.0, alpha=0.6, zorder=3,
@@ -156,26 +153,26 @@ def _drawn(plan, sweep, width, height, title, value, log, closed=None, without=N
 
 @styled
 def draw_curves(plan, sweep, width):
-    figure = plan.figure
-    title = figure.heading + (f"   ({plan.title})" if plan.title else "")
-    closed = figure.closed if figure.closed_form else None
-    layout, axes, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log,
-                                 closed, figure.without_mesh_error)
-    _failure_line(axes, figure.failure)
+    metric = plan.metric
+    title = metric.heading + (f"   ({plan.title})" if plan.title else "")
+    closed = metric.closed if metric.closed_form else None
+    layout, axes, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, metric.value, metric.log,
+                                 closed, metric.without_mesh_error)
+    _failure_line(axes, metric.failure)
     layout.description = _description(plan, sweep, lines)
     return layout
 
 
 @styled
 def draw_differences(plan, sweep, width):
-    """None without a closed form that points can be compared with."""
-    figure = plan.figure
-    if not figure.closed_form or not any(math.isfinite(figure.difference(p)) for p in plan.points(sweep)):
+    """The layout with the differences from the closed form; None without a closed form."""
+    metric = plan.metric
+    if not metric.closed_form or not any(math.isfinite(metric.difference(p)) for p in plan.points(sweep)):
         return None
     title = "Difference from the closed form [%]"
-    layout, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * figure.difference(p), False)
+    layout, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * metric.difference(p), False)
     axes.axhline(0, color=LIGHT["muted"], lw=0.8, zorder=1)
-    layout.description = f"{figure.title}: {title}"
+    layout.description = f"{metric.title}: {title}"
     return layout
 
 
@@ -185,6 +182,6 @@ def _description(plan, sweep, lines):
         ends = [(y, k) for k, (_, y, _) in enumerate(rows) if math.isfinite(y)]
         if ends:
             name = f"{plan.line_words(level)}: " if plan.lines else ""
-            low, high = (plan.figure.shown(rows[end[1]][2]) for end in (min(ends), max(ends)))
+            low, high = (plan.metric.shown(rows[end[1]][2]) for end in (min(ends), max(ends)))
             parts.append(f"{name}{low} to {high}")
-    return f"{plan.figure.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."
+    return f"{plan.metric.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."

@@ -1,4 +1,4 @@
-"""The frames of a sweep's points as small multiples: one camera, one window and one colour range for all."""
+"""The frames of a sweep's points as small pictures, with the same camera, window and colour range."""
 from pathlib import Path
 
 import matplotlib
@@ -13,26 +13,26 @@ from ..report.theme import DARK
 from .plan import plans
 
 MOST_COLUMNS = 8
-PAGE, LETTER = 10.0, 0.085  # inches: the picture, and a letter of a label
+PAGE, LETTER = 10.0, 0.085  # inches: width of the whole picture, and of a letter
 ON_DARK = {**dict.fromkeys(("figure.facecolor", "savefig.facecolor"), DARK["paper"]), "text.color": DARK["ink"],
            **dict.fromkeys(("xtick.color", "ytick.color"), DARK["muted"]),
            **dict.fromkeys(("xtick.labelcolor", "ytick.labelcolor"), DARK["ink"])}
 
 
 class Files(Series):
-    """Frames of their own, each with its mesh."""
+    """Frames of which each has its own mesh."""
 
     def __init__(self, paths):
         self.folder, self.paths, self.times = paths[0].parent, paths, [0.0] * len(paths)
 
 
 class Gallery:
-    """What draw_page() needs of a scene."""
+    """Stands for a Scene in draw_page(), although each frame has its own mesh."""
 
     def __init__(self, paths, labels, spec):
         series = Files(paths)
         self.scenes = [Scene(series, [k], spec) for k in range(len(paths))]
-        self.camera, self.note = self.scenes[0].camera, ""  # the page says how far deformations are enlarged
+        self.camera, self.note = self.scenes[0].camera, ""  # the page states the magnification
         self.labels, self.window = dict(enumerate(labels)), Window()
         self.window.include(np.array([w for s in self.scenes for w in (s.window.low, s.window.high)]))
         samples = [s.corner_values(series.frame(k)).ravel() for k, s in enumerate(self.scenes)]
@@ -45,14 +45,14 @@ class Gallery:
 
 
 def _chosen(points, most):
-    """Evenly among them, the first and the last included."""
+    """At most `most` points, evenly spaced, including the first and the last."""
     if len(points) <= most:
         return points
     return [points[round(k * (len(points) - 1) / max(most - 1, 1))] for k in range(most)]
 
 
 def _ordered(sweep, points):
-    """Points line by line along x, and the number of columns if they make a table."""
+    """The points, line by line along x; and the number of columns if the points form a table, else None."""
     plan = plans(sweep)[0]
     along, lines = sweep.levels(plan.x), plan.line_levels(sweep)
     if sweep.combine == "cartesian":
@@ -64,13 +64,13 @@ def _ordered(sweep, points):
 
 
 def _label(sweep, point):
-    """'L, 31.6': without names, as panels are small."""
+    """The point's values without names: 'L, 31.6'."""
     return ", ".join(f"{float(f'{value:.3g}'):g}" + (f" {v.unit}" if v.unit else "") if v.numeric else str(value)
                      for v in sweep.variables for value in [point["values"][v.name]])
 
 
 def draw_gallery(sweep, folder, path):
-    """Writes the picture, and NAME_dark.png for pages with a dark ground; returns both paths, [] without frames."""
+    """Writes the picture, and NAME_dark.png for dark pages. Returns both paths, or [] without frames."""
     frames = sweep.frames
     points = [p for p in sweep.done if p.get("frame") and (Path(folder) / p["folder"] / p["frame"]).is_file()]
     if not frames or not points:

@@ -1,4 +1,4 @@
-"""A figure over two numbers as colours, one cell a point."""
+"""A metric over two numeric variables as colours, one cell per point."""
 import math
 
 import matplotlib
@@ -19,20 +19,20 @@ def _norm(values, log):
 
 @styled
 def draw_heat_map(plan, sweep, width):
-    figure, xs, ys = plan.figure, sweep.levels(plan.x), sweep.levels(plan.lines)
-    found = [(p, figure.value(p)) for p in plan.points(sweep) if math.isfinite(figure.value(p))]
+    metric, xs, ys = plan.metric, sweep.levels(plan.x), sweep.levels(plan.lines)
+    found = [(p, metric.value(p)) for p in plan.points(sweep) if math.isfinite(metric.value(p))]
     if not found:
         return None
     narrow = width < WIDE
     left, right, top, height = 72, 16 if narrow else 110, 40, max(120, min(360, 30 * len(ys)))
     layout = PixelLayout(width, top + height + (104 if narrow else 56),
-                  f"{figure.heading} as colours over {plan.x.heading} and {plan.lines.heading}")
-    layout.text(0, 16, f"{figure.heading} over {plan.x.name} and {plan.lines.name}"
+                  f"{metric.heading} as colours over {plan.x.heading} and {plan.lines.heading}")
+    layout.text(0, 16, f"{metric.heading} over {plan.x.name} and {plan.lines.name}"
                + (f"   ({plan.title})" if plan.title else ""), weight="bold")
     across = width - left - right
     axes = layout.axes(left, top, across, height, xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5))
     axes.grid(False)
-    norm = _norm([v for _, v in found], figure.log)
+    norm = _norm([v for _, v in found], metric.log)
     for point, value in found:
         x, y = xs.index(point["values"][plan.x.name]), ys.index(point["values"][plan.lines.name])
         axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=MAP(norm(value)), edgecolor="none",
@@ -42,7 +42,7 @@ def draw_heat_map(plan, sweep, width):
     layout.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
     layout.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
     lying, standing = (left, top + height + 66, across, 12), (left + across + 22, top, 14, height)
-    ends = [figure.shown(end(found, key=lambda entry: entry[1])[0]) for end in (min, max)]
+    ends = [metric.shown(end(found, key=lambda entry: entry[1])[0]) for end in (min, max)]
     _bar(layout, norm, ends, lying if narrow else standing, narrow)
     return layout
 
@@ -54,7 +54,8 @@ def _ticks(axes, which, values, most):
 
 
 def _bar(layout, norm, ends, box, lying):
-    """From the smallest to the largest value; `ends` in words."""
+    """Draws a colour bar from the smallest to the largest value. `ends`: their labels; `lying`: whether it is
+    horizontal."""
     axes = layout.axes(*box, xlim=(0, 1), ylim=(0, 1))
     axes.grid(False)
     axes.set_xticks([]), axes.set_yticks([])

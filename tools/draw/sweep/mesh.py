@@ -1,27 +1,28 @@
-"""How far the mesh puts the figures of a sweep off, in words: of frequencies and load factors, which have errors of their own."""
+"""Mesh errors of a sweep's metrics, in words. Only natural frequencies have their own error estimates."""
 import math
 
 from ..digits import known_digits
 from ..report.formatting import THIN
 
-NONE = 1e-6  # shares below it are none
+NONE = 1e-6  # a smaller error counts as none
 
 
 def percent(share):
-    """Two digits, never an exponent where it can be helped: 0.2514 -> '25', 1.5 -> '150'."""
+    """A fraction in per cent, with two digits and if possible without an exponent: 0.2514 -> '25', 1.5 -> '150'."""
     return known_digits(100 * share, 1.0)
 
 
 def off(error):
-    """'25 % too high'; '' where that is not known or nothing."""
+    """'25 % too high'; '' if unknown or negligible."""
     if not abs(error) > NONE:
         return ""
     return f"{percent(abs(error))}{THIN}% too {'high' if error > 0 else 'low'}"
 
 
-def off_at(figure, points):
-    """'18 to 25 % too high' over all points, '2 % too low to 25 % too high'; '' where it is not known of any."""
-    errors = [e for p in points if abs(e := figure.mesh_error(p)) > NONE]
+def off_at(metric, points):
+    """The range of errors over all points: '18 to 25 % too high', '2 % too low to 25 % too high'; '' if all are
+    unknown."""
+    errors = [e for p in points if abs(e := metric.mesh_error(p)) > NONE]
     if not errors:
         return ""
     low, high = min(errors), max(errors)
@@ -31,8 +32,8 @@ def off_at(figure, points):
     return off(most) if percent(least) == percent(most) else f"{percent(abs(least))} to {off(most)}"
 
 
-def worst(figures, points):
-    """(error, figure, point) of the largest error; None where none is known."""
-    found = [(figure.mesh_error(p), figure, p) for figure in figures for p in points]
+def worst(metrics, points):
+    """(error, metric, point) of the largest error; None if no error is known."""
+    found = [(metric.mesh_error(p), metric, p) for metric in metrics for p in points]
     found = [entry for entry in found if math.isfinite(entry[0])]
     return max(found, key=lambda entry: abs(entry[0]), default=None)

@@ -1,4 +1,4 @@
-"""Which figures a sweep has: what is along the axis, what makes lines, what makes separate figures."""
+"""Plans the figures of a sweep: which variable is the x axis, which makes lines, and which make separate figures."""
 from dataclasses import dataclass
 from itertools import islice, product
 from math import prod
@@ -8,10 +8,10 @@ MOST_LINES, MOST_PANELS, LEAST_FOR_A_MAP = 8, 8, 4
 
 @dataclass(frozen=True)
 class Plan:
-    """One figure: points whose other variables have the values `fixed`."""
-    figure: object
+    """One figure of a metric. It shows the points at which the other variables have the values `fixed`."""
+    metric: object
     x: object
-    lines: object  # or None
+    lines: object  # the variable with a line for each value, or None
     fixed: dict
 
     def points(self, sweep):
@@ -21,11 +21,11 @@ class Plan:
         return sweep.levels(self.lines) if self.lines else [None]
 
     def line_words(self, level):
-        """'ratio 30', 'coarse'."""
+        """The label of a line: 'ratio 30', 'coarse'."""
         return f"{self.lines.name} {self.lines.words(level)}" if self.lines.numeric else str(level)
 
     def of_line(self, sweep, level):
-        """Its points, along x."""
+        """The points of a line, along x."""
         rows = [p for p in self.points(sweep) if not self.lines or p["values"][self.lines.name] == level]
         return sorted(rows, key=lambda p: p["values"][self.x.name]) if self.x.numeric else rows
 
@@ -36,12 +36,12 @@ class Plan:
 
 
 def _by_size(sweep):
-    """Numeric variables first, then by how many values they have."""
+    """The variables sorted: numeric ones first, and among equals those with the most values."""
     return sorted(sweep.variables, key=lambda v: (not v.numeric, -len(sweep.levels(v))))
 
 
 def _usual_roles(sweep):
-    """(x, lines) for every figure that is drawn of a quantity."""
+    """The default pairs (x, lines) for the figures of a metric."""
     ordered = _by_size(sweep)
     if sweep.combine == "latin_hypercube":
         return [(v, None) for v in sweep.variables]
@@ -53,44 +53,45 @@ def _usual_roles(sweep):
 
 
 def _others(sweep, x, lines):
-    """The remaining variables; where values go side by side there are none."""
+    """The variables other than x and lines; none unless the sweep is cartesian."""
     return [v for v in sweep.variables if v not in (x, lines)] if sweep.combine == "cartesian" else []
 
 
 def _panels(sweep, x, lines):
-    """Values of the remaining variables, of the first combinations."""
+    """The combinations of values of the other variables, at most MOST_PANELS."""
     others = _others(sweep, x, lines)
     combinations = islice(product(*(sweep.levels(v) for v in others)), MOST_PANELS)
     return [dict(zip((v.name for v in others), values)) for values in combinations]
 
 
 def _roles(sweep):
-    """(figure, x, lines) of all that is drawn."""
-    for figure in sweep.figures:
+    """(metric, x, lines) of all figures."""
+    for metric in sweep.metrics:
         wished = [(sweep.variable(p["x"]) if p["x"] else None, sweep.variable(p["lines"]) if p["lines"] else None)
-                  for p in sweep.plots if p["figure"] == figure.name]
+                  for p in sweep.plots if p["metric"] == metric.name]
         if sweep.plots and not wished:
             continue
         usual = _usual_roles(sweep)
         for x, lines in wished or usual:
             x, lines = x or usual[0][0], lines or (usual[0][1] if not x else None)
-            yield figure, x, lines
+            yield metric, x, lines
 
 
 def plans(sweep):
-    return [Plan(figure, x, lines, fixed) for figure, x, lines in _roles(sweep) for fixed in _panels(sweep, x, lines)]
+    return [Plan(metric, x, lines, fixed) for metric, x, lines in _roles(sweep) for fixed in _panels(sweep, x, lines)]
 
 
 def left_out(sweep):
-    """(figure, how many combinations there are, of which variables) where not all of them are drawn."""
-    for figure, x, lines in _roles(sweep):
+    """(metric, number of combinations, variables) of figures for which only the first MOST_PANELS combinations are
+    drawn."""
+    for metric, x, lines in _roles(sweep):
         others = _others(sweep, x, lines)
         count = prod(len(sweep.levels(v)) for v in others)
         if count > MOST_PANELS:
-            yield figure, count, others
+            yield metric, count, others
 
 
 def has_map(plan, sweep):
-    """Two numbers with some values each are also a surface."""
+    """Whether to draw a heat map, which needs two numeric variables with several values each."""
     return bool(plan.lines and plan.lines.numeric and plan.x.numeric and
                 min(len(sweep.levels(plan.x)), len(sweep.levels(plan.lines))) >= LEAST_FOR_A_MAP)

@@ -1,4 +1,4 @@
-"""All points of a sweep as a table; columns that say nothing are named once below it."""
+"""Table of all points. Constant columns are listed below the table instead."""
 import math
 from dataclasses import dataclass, field
 
@@ -13,8 +13,8 @@ from .answer import SAME
 class Column:
     heading: str
     numeric: bool
-    cells: list  # words, one a point
-    values: list = field(default=None)  # of which the cells show the known digits
+    cells: list  # texts, one per point
+    values: list = field(default=None)  # the numbers in the cells
 
     @property
     def empty(self):
@@ -34,7 +34,7 @@ def _percent(gap):
 
 
 def _off(share):
-    """'+25', '−0.31'."""
+    """A relative error in per cent: '+25', '−0.31'."""
     if not math.isfinite(share):
         return formatting.UNKNOWN
     return ("+" if share > 0 else "−" if share < 0 else "") + mesh.percent(abs(share))
@@ -44,7 +44,7 @@ def _columns(sweep):
     points = sweep.points
     for v in sweep.variables:
         yield Column(v.heading, v.numeric, [v.plain(p["values"][v.name]) for p in points])
-    for f in sweep.figures:
+    for f in sweep.metrics:
         yield Column(f.heading, True, [f.shown(p, 6) for p in points], [f.value(p) for p in points])
         if any(math.isfinite(f.mesh_error(p)) for p in points):
             yield Column(f"{f.title}, by the mesh [%]", True, [_off(f.mesh_error(p)) for p in points])
@@ -60,7 +60,7 @@ def _columns(sweep):
 
 
 def _left_out(columns):
-    """What the columns that are not shown would have said."""
+    """The constant columns, as the text below the table."""
     same = [f"{c.heading} {c.cells[0]}" for c in columns if c.constant and not c.empty]
     none = [c.heading for c in columns if c.empty and c.heading != "status"]
     parts = ([f"The same at all points: {'; '.join(same)}."] if same else []) + \

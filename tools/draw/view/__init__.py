@@ -1,1 +1,1 @@
-"""Results as one HTML file with a 3D view that opens offline: `draw view`."""
+"""HTML pages with a 3D view: `draw view`. Knows runs and modes; studies provide their own sources."""

@@ -1,11 +1,11 @@
-"""Arrays as text that a page can hold: quantised, packed by gzip, in base64.
+"""Arrays as text in an HTML page: quantised, compressed by gzip, in base64.
 
-Kinds, as web/src/blocks.ts reads them; all little-endian, rows of one component after the other (planes), which pack
-better than rows beside each other:
-  u32     whole numbers
+web/src/blocks.ts reads them. Numbers are little-endian. All values of a component precede those of the next (planes),
+which compresses better. Kinds:
+  u32     unsigned integers
   f32     single precision
-  linear  uint16 between the smallest and the largest of each component: an error of 8e-6 of their distance
-  half    half precision times a factor, plus an offset: a relative error of 5e-4 of what differs from it, NaN kept
+  linear  uint16 between the smallest and the largest value of each component; error: 8e-6 of the difference of the two
+  half    half precision times a factor, plus an offset; error: 5e-4 of the difference from the offset; keeps NaN
 """
 import base64
 import gzip
@@ -21,7 +21,7 @@ LARGEST_HALF = 32768.0
 
 
 class Blocks:
-    """Script elements, one for each array, by name. What is there already under another name only names that."""
+    """Script elements, one for each named array. An array that equals an earlier one only refers to that one."""
 
     def __init__(self):
         self._elements, self._known = [], {}

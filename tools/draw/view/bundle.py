@@ -1,6 +1,6 @@
-"""The digest of the script's sources, which the bundle of them begins with: `python3 bundle.py` writes that line.
+"""Writes the digest of the TypeScript sources into the first line of viewer.js: `python3 bundle.py`.
 
-To make the bundle again, in web/:  npm ci && npm run check && npm run bundle
+To build viewer.js, in web/:  npm ci && npm run check && npm run bundle
 """
 import hashlib
 from pathlib import Path
@@ -10,7 +10,7 @@ LICENCE = HERE / "web" / "THREE_LICENSE"
 
 
 def digest():
-    """Of all sources and of the versions they are bundled with."""
+    """The digest of all sources and package versions."""
     found = hashlib.sha256()
     for path in sorted((HERE / "web" / "src").glob("*.ts")) + [HERE / "web" / "package.json"]:
         found.update(path.name.encode() + path.read_bytes())

@@ -1,4 +1,4 @@
-"""What a page holds of one result: a description for its script, and blocks of numbers."""
+"""Collects one result for a page: a description for the page's script, and blocks of numbers."""
 import json
 from dataclasses import dataclass
 
@@ -12,22 +12,22 @@ from .setup import add_setup
 from .skin import Skin
 from .strokes import strokes
 
-MOST_ROWS = 20000  # of a table
-SAMPLED = 24  # frames that are taken whole for the range of a field without peaks; of the others its ends
+MOST_ROWS = 20000  # largest number of rows of a table
+SAMPLED = 24  # number of frames of which all values enter a field's colour range; of other frames only the extremes do
 TABLES = ("probes", "energy", "momentum")
 NOTES = ("status", "warnings")
 
 
 @dataclass(frozen=True)
 class Extent:
-    """What of a result is taken: also what is inside; these fields, or all; every so many frames."""
+    """The part of a result to include: with or without the interior, which fields (None: all), and every K-th frame."""
     volume: bool = False
     fields: tuple = None
-    every: int = None  # None: as many frames as make a page that is not too large
+    every: int = None  # None: Source.every
 
 
 class _Kept:
-    """Which nodes and cells of a frame are kept, in this order."""
+    """The nodes and cells to include, in the order of the page."""
 
     def __init__(self, skin, frame, volume):
         if volume:
@@ -39,7 +39,7 @@ class _Kept:
                                                               (self.cells, len(frame.tets) // frame.parts)))
 
     def of(self, frame, name):
-        """Values of a field at what is kept."""
+        """The values of a field at the included nodes or cells."""
         if name in frame.node_fields:
             return frame.node_fields[name][self.nodes]
         return frame.cell_fields[name][::self.parts][self.cells]
@@ -58,7 +58,7 @@ def _places(kept, size):
 
 
 def add_result(blocks, key, item, extent):
-    """Adds the blocks of an Item, called `key`/...; returns its description."""
+    """Adds the blocks of an Item, with names KEY/... Returns the Item's description."""
     series = item.series
     frames = sorted({*range(0, len(series), extent.every), len(series) - 1})
     first = series.frame(0)
@@ -108,7 +108,7 @@ def _add_mesh(blocks, key, frame, skin, shown, centre, volume):
 
 
 def _add_frames(blocks, key, series, frames, shown, survey):
-    """Blocks KEY/FIELD/FRAME; of a field that never changes only the first."""
+    """Adds the blocks KEY/FIELD/FRAME. Of a field that is constant in time, only the first frame is added."""
     first = series.frame(0)
     for k, index in enumerate(frames):
         frame = series.frame(index)
@@ -124,8 +124,8 @@ def _add_frames(blocks, key, series, frames, shown, survey):
 
 
 class _Survey:
-    """What is to be known of all frames before they are written: that they fit together, how far the body reaches, what
-    never changes, and between which values each quantity is."""
+    """A first pass over all frames. Checks that they match, and finds the extent of the body, the constant fields and
+    the range of each quantity."""
 
     def __init__(self, series, frames, shown, fields, centre):
         first = series.frame(0)
@@ -144,7 +144,7 @@ class _Survey:
 
     def _check(self, path, frame, first):
         if frame.points.shape != first.points.shape or frame.tets.shape != first.tets.shape:
-            raise DrawError(f"{path}: another mesh than in the first frame")
+            raise DrawError(f"{path}: the mesh differs from that of the first frame")
         for name in self.fields:
             if not _has(frame, name):
                 raise DrawError(f"{path}: has no field '{name}', which the first frame has")
@@ -154,7 +154,7 @@ class _Survey:
         if "displacement" in frame.node_fields:
             moved = moved + shown.of(frame, "displacement")
         if not np.isfinite(moved).all():
-            raise DrawError(f"{path}: a displacement is not a finite number")
+            raise DrawError(f"{path}: a displacement is not finite")
         self.low, self.high = np.minimum(self.low, moved.min(axis=0)), np.maximum(self.high, moved.max(axis=0))
 
     def _sample(self, frame, shown, whole):
@@ -168,7 +168,7 @@ class _Survey:
         return [self.low.tolist(), self.high.tolist()]
 
     def quantities(self):
-        """All that may colour the body, with their ranges, in the order of the fields."""
+        """The quantities that can colour the body, with their ranges."""
         return [_described(kind, sample) for name in self.fields
                 for kind, sample in zip(self._kinds[name], self._samples[name])]
 
@@ -178,13 +178,13 @@ def _has(frame, name):
 
 
 def _ends(values):
-    """The smallest and the largest number."""
+    """The smallest and the largest finite value."""
     finite = values[np.isfinite(values)]
     return np.array([finite.min(), finite.max()]) if finite.size else np.zeros(0)
 
 
 def _kinds(name, frame, count):
-    """The Quantities of one field: what stands for the whole first, then its components."""
+    """The Quantities of a field: the default one first, then the components."""
     whole = find_quantity(name, frame)
     parts = [find_quantity(f"{name}.{part}", frame) for part in component_names(name, count)] if count > 1 else []
     if count == 6 and whole.kind == "von_mises":
@@ -213,13 +213,13 @@ def _described(quantity, samples):
 
 
 def _end(which, samples):
-    """The smallest or the largest of all finite numbers; None if there is none."""
+    """which(all finite values); None if there are none."""
     ends = [which(finite) for sample in samples if (finite := sample[np.isfinite(sample)]).size]
     return float(which(ends)) if ends else None
 
 
 def _add_strokes(blocks, key, frame, skin):
-    """The material axes that there are strokes of."""
+    """Adds strokes along the material axes. Returns the axes."""
     moved = frame.points + frame.node_fields.get("displacement", 0)
     axes = [axis for axis in (1, 2, 3) if f"material_axis_{axis}" in frame.cell_fields and len(skin.faces)]
     for axis in axes:
@@ -230,13 +230,13 @@ def _add_strokes(blocks, key, frame, skin):
 
 
 def _add_table(blocks, key, folder, name):
-    """Curves of a table that is there, with one block for all of its columns."""
+    """Adds a table as one block, if it exists. Returns the table's curves."""
     path = folder and folder / f"{name}.csv"
     if not path or not path.is_file():
         return []
     try:
         table = Table(path)
-    except DrawError:  # no rows, as of a run that has just begun
+    except DrawError:  # no rows: the run has just begun
         return []
     rows = np.unique(np.linspace(0, len(table.axis.values) - 1, min(len(table.axis.values), MOST_ROWS)).round().astype(int))
     columns = [table.axis, *table.others()]
@@ -245,7 +245,7 @@ def _add_table(blocks, key, folder, name):
 
 
 def _notes(folder):
-    """Lines about the run, from run.json."""
+    """The status and the warnings from run.json."""
     if not folder:
         return {}
     try:

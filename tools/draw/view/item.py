@@ -1,4 +1,4 @@
-"""What a view can show beside each other: runs, the points of a study, shapes."""
+"""What a view shows: items, which are series of frames, from the sources that the user names."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -7,24 +7,25 @@ from ..series import Series
 
 @dataclass(frozen=True)
 class Item:
-    """A series of frames, and what the page says of it."""
+    """A series of frames with its description on the page."""
     name: str
     series: Series
-    folder: Path = None  # of its curves, of where it is held and loaded, and of its record; None: there are none
-    group: str = ""  # under which it is offered
-    labels: list = None  # of the frames, in place of times
-    is_static: bool = False  # times are load factors
-    is_shape: bool = False  # displacements are shapes of modes, whose size means nothing
-    facts: tuple = ()  # lines about it
+    folder: Path = None  # contains tables of curves, setup.vtu and run.json; None if there are none
+    group: str = ""  # heading in the list of items
+    labels: list = None  # labels of the frames that replace times
+    is_static: bool = False  # whether times are load factors
+    is_shape: bool = False  # whether displacements are mode shapes of arbitrary size
+    facts: tuple = ()  # lines of text about the item
 
 
 @dataclass(frozen=True)
 class Source:
-    """What a folder holds for a view: never nothing."""
+    """The items of a result folder, at least one."""
+    folder: Path
     kind: str
     items: list
-    start: dict  # with what the page begins if nothing else is said: panes (indices of items), time, color, scale, rest
-    every: int = 1  # every so many frames make a page that is not too large
+    start: dict  # defaults of the page: panes (indices of items), time, color, scale, rest
+    every: int = 1  # default of Extent.every, chosen to limit the size of the page
 
 
 def name_of(folder):

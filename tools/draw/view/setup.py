@@ -1,4 +1,4 @@
-"""Where a body is held and loaded, from setup.vtu, which `orthodyn run` writes beside the frames."""
+"""Held and loaded nodes from setup.vtu, which `orthodyn run` writes with the frames."""
 import numpy as np
 
 from ..errors import DrawError
@@ -6,7 +6,7 @@ from ..vtu import read_vtu
 
 
 def add_setup(blocks, key, folder, num_points, shown):
-    """Adds nodes that are held, and loaded ones with their forces; returns how many there are of each."""
+    """Adds blocks of the held nodes and of the loaded nodes with their forces. Returns how many there are of each."""
     path = folder and folder / "setup.vtu"
     if not path or not path.is_file():
         return {"held": 0, "loaded": 0}

@@ -1,12 +1,13 @@
-"""What of a mesh is shown: its faces, edges and, along edges of the shape, corners with normals of their own."""
+"""The visible part of a mesh: faces, edges, and normals at corners, which differ across sharp edges."""
 import numpy as np
 
 from ..surface import Surface
 
 
 class Skin:
-    """Faces (f,3) of `points`, the cell of each, edges of the mesh and of the shape (e,2), and for each corner of a face
-    the number of its normal (f,3): corners at one node share one unless a sharp edge is between them."""
+    """Faces (f,3) of `points`, the cell of each face, edges of the mesh and sharp edges of the shape (e,2), and the
+    index of each corner's normal (f,3). Corners at the same node have the same normal unless a sharp edge is between
+    them."""
 
     def __init__(self, frame):
         surface = Surface(frame.points, frame.tets)
@@ -20,7 +21,7 @@ class Skin:
         self.normal = _normals(surface)
 
     def _of_cells(self, frame, pairs):
-        """Edges of the cells themselves: not those between the parts of a quadratic face, which join two of its middles."""
+        """The edges of cells, without the edges between the parts of a quadratic face."""
         if frame.parts == 1:
             return np.ones(len(pairs), bool)
         corner = np.zeros(len(frame.points), bool)
@@ -29,12 +30,13 @@ class Skin:
 
 
 def _normals(surface):
-    """The smallest corner that each is joined to over edges that are not sharp, numbered from 0."""
+    """For each corner the index of its normal. Corners that are connected across edges that are not sharp share a
+    normal."""
     face, edge = np.nonzero(~surface.sharp)
     other = surface.neighbour[face, edge]
     label = np.arange(surface.faces.size)
     links = []
-    for end in (0, 1):  # of the edge
+    for end in (0, 1):  # end of the edge
         corner = 3 * face + (edge + end) % 3
         node = surface.faces.ravel()[corner]
         links.append((corner, 3 * other + np.argmax(surface.faces[other] == node[:, None], axis=1)))

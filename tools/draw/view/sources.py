@@ -1,54 +1,39 @@
-"""From the folder that a command wrote to what a view shows of it."""
+"""Views of runs and modes, and of several sources on one page."""
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 from ..modes import LARGEST, Shapes, is_of_modes, labelled_modes
 from ..series import Series, is_static
-from . import end_states, points, runs
 from .item import Item, Source, name_of
 
-STUDIES = ((points.is_sweep, points.of_sweep), (runs.is_comparison, runs.of_comparison),
-           (end_states.is_matrix, end_states.of_matrix))
 
-
-def folder_of(name):
-    """That of a report, a run.json and so on."""
-    path = Path(name)
-    return path.parent if path.is_file() else path
-
-
-def source_of(name):
-    """The Source of a folder, or of a file in it. Raises DrawError where it has nothing to show."""
-    folder = folder_of(name)
-    for is_it, of_it in STUDIES:
-        if is_it(folder):
-            return of_it(folder)
+def run_source(folder):
+    """The Source of a run: its frames, or its mode shapes if there are no frames."""
     if (folder / "modes.pvd").is_file() and not (folder / "frames.pvd").is_file():
         return _of_shapes(folder)
     series = Series(folder)
-    return Source("run", [Item(name_of(folder), series, folder, is_static=is_static(folder))], _at_largest(series))
+    return Source(folder, "run", [Item(name_of(folder), series, folder, is_static=is_static(folder))], _at_largest(series))
 
 
 def _at_largest(series):
-    """At rest there is nothing to see, nor in a motion that is too small."""
+    """Defaults of a page that opens at the largest displacement, magnified if that is too small to see."""
     peak, _, _ = series.peak
     start = {} if peak is None else {"time": float(series.times[peak])}
     return {**start, "scale": series.visible_scale} if series.visible_scale else start
 
 
 def _of_shapes(folder):
-    """Enlarged to be seen: the size of a shape means nothing."""
+    """The Source of mode shapes. They are magnified, because the size of a mode shape is arbitrary."""
     shapes = Shapes(folder)
     scale = LARGEST * float(np.ptp(shapes.frame(0).points, axis=0).max())
-    return Source("shapes", [Item(name_of(folder), shapes, labels=labelled_modes(folder, shapes), is_shape=True)],
+    return Source(folder, "shapes", [Item(name_of(folder), shapes, labels=labelled_modes(folder, shapes), is_shape=True)],
                   {"color": "swing", "range": [-1, 1], "scale": scale, "swing": is_of_modes(folder)})
 
 
 def told_apart(items):
-    """Those of one name and group with what was set for each of them, or else with a number."""
+    """The items with distinct names. The settings of the run, or a number, are added to equal names."""
     found = []
     for item in items:
         same = [other for other in items if (other.name, other.group) == (item.name, item.group)]
@@ -69,7 +54,8 @@ def _set(item):
 
 
 def begin(sources):
-    """The start of a page of these: of several kinds only what holds for all, and the first two beside each other."""
+    """Defaults of a page with these sources. Several sources are shown with the first two side by side, and use the
+    first source's defaults only if all are of the same kind."""
     first = sources[0]
     if len(sources) == 1:
         return {"scale": 1.0, "panes": [0], **first.start}

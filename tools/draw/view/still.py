@@ -1,4 +1,4 @@
-"""A still of a page, taken by a browser that runs without a window."""
+"""Takes a picture of a page with a headless browser."""
 import os
 import shutil
 import subprocess
@@ -9,15 +9,15 @@ from ..errors import DrawError
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "microsoft-edge")
 SECONDS = 120
-MILLISECONDS = 10_000  # of the page's own clock: until everything is drawn
+MILLISECONDS = 10_000  # of the page's virtual time, in which everything is drawn
 
 
 def take_still(text, path, size):
-    """Writes the page `text` as PNG of `size` pixels; returns the path."""
+    """Writes a picture of the page `text` as PNG of `size` pixels. Returns the path."""
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser is None:
-        raise DrawError(f"a still needs one of {', '.join(BROWSERS)}, and none is installed (Debian: apt install "
-                        "chromium); `draw frame` draws a picture without one")
+        raise DrawError(f"--png needs one of {', '.join(BROWSERS)}, and none is installed (Debian: apt install "
+                        "chromium); `draw frame` draws a picture without a browser")
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "view.html", Path(folder) / "view.png"
         page.write_text(text, encoding="utf-8")
@@ -30,7 +30,7 @@ def take_still(text, path, size):
         except subprocess.TimeoutExpired:
             raise DrawError(f"{browser} took more than {SECONDS} s to draw the view") from None
         if not picture.is_file():
-            last = (ended.stderr.strip().splitlines() or ["it said nothing"])[-1]
+            last = (ended.stderr.strip().splitlines() or ["no message"])[-1]
             raise DrawError(f"{browser} drew no picture: {last}")
         path.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(picture, path)

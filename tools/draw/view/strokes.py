@@ -1,14 +1,14 @@
-"""Material axes as strokes that move with the faces they lie on."""
+"""Material axes as strokes that move with the faces on which they lie."""
 import numpy as np
 
 from ..grain import Grain
 from ..surface import area_vectors
 
-COUNT = 2500  # of strokes, were the surface flat and they in rows
+COUNT = 2500  # approximate number of strokes on a flat surface
 
 
 def strokes(skin, frame, points, field):
-    """Faces (s,) and the barycentric coordinates of both ends in them (s,2,3)."""
+    """For each stroke its face (s,), and the barycentric coordinates of its two ends in the face (s,2,3)."""
     area = 0.5 * np.linalg.norm(area_vectors(points[skin.faces]), axis=1).sum()
     grain = Grain(skin.surface, points, np.sqrt(area / COUNT))
     corners = points[skin.faces[grain.face]]
@@ -16,7 +16,7 @@ def strokes(skin, frame, points, field):
 
 
 def _barycentric(corners, points):
-    """Of points in the planes of triangles, also of those beyond their edges."""
+    """Barycentric coordinates of points in the planes of triangles. The points may lie outside the triangles."""
     a, b, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]
     aa, ab, bb, av, bv = (np.einsum("ix,ix->i", x, y) for x, y in ((a, a), (a, b), (b, b), (a, v), (b, v)))
     determinant = np.maximum(aa * bb - ab * ab, 1e-300)

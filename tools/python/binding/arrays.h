@@ -1,4 +1,4 @@
-// Numbers of the library as numpy arrays.
+// std::vector as numpy arrays.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -12,7 +12,7 @@ namespace orthodyn::python {
 
 namespace py = pybind11;
 
-// An array of this shape whose numbers are `values`, which it keeps alive: nothing is copied.
+// An array of the given shape that owns `values`, which are not copied.
 template <class T>
 py::array_t<T> array_of(std::vector<T> values, std::vector<py::ssize_t> shape) {
   auto owned = std::make_unique<std::vector<T>>(std::move(values));

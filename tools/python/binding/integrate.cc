@@ -28,7 +28,7 @@ class Trajectory : public Observer {
   void rethrow() const {
     if (interrupted_by_) std::rethrow_exception(interrupted_by_);
   }
-  void tell(py::dict& out, py::ssize_t n) {
+  void write(py::dict& out, py::ssize_t n) {
     const auto count = static_cast<py::ssize_t>(t_.size());
     out["t"] = array_of(std::move(t_));
     out["q"] = array_of(std::move(q_), {count, n});
@@ -63,11 +63,12 @@ py::dict statistics_of(const Statistics& s) {
   return out;
 }
 
-// What the model's functions raise keeps its kind, also where `auto` looks at them to choose.
-std::unique_ptr<Integrator> made(const IntegratorChoice& choice, const PythonModel& model, const Task& task) {
+// Rethrows exceptions of the model's functions with their own type, also if `auto` has called the functions.
+std::unique_ptr<Integrator> make_integrator(const IntegratorChoice& choice, const PythonModel& model,
+                                            const Task& task) {
   try {
     auto integrator = choice.make(model, task);
-    model.rethrow();  // of a look at the model that `auto` has given up
+    model.rethrow();  // an exception that `auto` has caught
     return integrator;
   } catch (const std::exception&) {
     model.rethrow();
@@ -80,12 +81,12 @@ std::unique_ptr<Integrator> made(const IntegratorChoice& choice, const PythonMod
 py::dict integrate(const PythonModel& model, const IntegrateRequest& request) {
   const double end = request.times.back(),
                interval = (end - request.initial.t) / static_cast<double>(request.times.size());
-  // They are sizes of the motion itself, whose frequency is about their ratio.
+  // The scales are amplitudes of the motion, so their ratio estimates its frequency.
   const Scales scales{request.position_scale, request.velocity_scale, request.velocity_scale / request.position_scale};
   const Task task{[=] { return scales; }, request.initial, end, interval};
   const Config options = Config::from_text(request.integrator, "integrator");
   const auto choice = Registry<IntegratorChoice>::read(options);
-  const auto integrator = made(*choice, model, task);
+  const auto integrator = make_integrator(*choice, model, task);
   std::atomic<bool> interrupt{false};
   Trajectory trajectory(interrupt);
   const Outcome outcome =
@@ -93,7 +94,7 @@ py::dict integrate(const PythonModel& model, const IntegrateRequest& request) {
   trajectory.rethrow();
   model.rethrow();
   py::dict out;
-  trajectory.tell(out, model.num_dofs());
+  trajectory.write(out, model.num_dofs());
   out["status"] = status_word(outcome.status);
   out["message"] = outcome.message;
   py::dict decisions;

@@ -1,4 +1,4 @@
-// Any integrator of the library on a model that is written in Python.
+// Integration of a Python model by any integrator of the library.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,15 +11,15 @@
 namespace orthodyn::python {
 
 struct IntegrateRequest {
-  std::string integrator;  // its options, YAML: "{type: cvode_bdf, rtol: 1e-6}"
+  std::string integrator;  // YAML: "{type: cvode_bdf, rtol: 1e-6}"
   State initial;
   std::vector<double> times;  // s, ascending, after the start; the last is the end
   double position_scale = 1, velocity_scale = 1;
 };
 
-// "t" (k,), "q" and "v" (k, n) at the start and at the times that were reached, "status", "message",
-// "decisions" and "statistics". A computation that could not go on is a result. Throws ConfigError for options, and
-// what the model throws in Python.
+// A dict with "t" (k,), "q" and "v" (k, n) at the start and at the times reached, "status", "message", "decisions" and
+// "statistics". A failed run is a result, not an exception. Throws ConfigError for wrong options, and exceptions of the
+// model's functions.
 pybind11::dict integrate(const PythonModel& model, const IntegrateRequest& request);
 
 }  // namespace orthodyn::python

@@ -6,12 +6,12 @@ namespace orthodyn::python {
 
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+constexpr auto kProgressInterval = std::chrono::milliseconds(100);
 
-// The recorder outlives the run; this is what the run owns of it.
-class Watch : public Observer {
+// Observer that the run owns. Forwards to the recorder, which outlives the run, and reports progress.
+class RecorderObserver : public Observer {
  public:
-  Watch(std::shared_ptr<Recorder> recorder, Listener& listener, double end)
+  RecorderObserver(std::shared_ptr<Recorder> recorder, Listener& listener, double end)
       : recorder_(std::move(recorder)), listener_(listener), end_(end) {}
 
   void on_start(const ObservedState& observed) override {
@@ -24,7 +24,7 @@ class Watch : public Observer {
     if (recorder_) recorder_->on_output(observed);
   }
   void on_step(const StepInfo& step, const ObservedState&, const Integrator&) override {
-    listener_.look_up(step.t, end_);
+    listener_.report_progress(step.t, end_);
   }
 
  private:
@@ -36,11 +36,11 @@ class Watch : public Observer {
 }  // namespace
 
 template <class... Words>
-void Listener::tell(const char* name, const Words&... words) {
+void Listener::call_python(const char* name, const Words&... words) {
   const py::gil_scoped_acquire lock;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!told_.is_none()) told_.attr(name)(words...);
+    if (!callbacks_.is_none()) callbacks_.attr(name)(words...);
   } catch (...) {
     if (!thrown_) thrown_ = std::current_exception();
     interrupt_ = true;
@@ -48,16 +48,16 @@ void Listener::tell(const char* name, const Words&... words) {
 }
 
 std::unique_ptr<Observer> Listener::on_begin(const Setup& setup) {
-  if (computed_) return std::make_unique<Watch>(nullptr, *this, setup.scene.time.end);
+  if (computed_) return std::make_unique<RecorderObserver>(nullptr, *this, setup.scene.time.end);
   recorder_ = std::make_shared<Recorder>(*setup.built.model, fields_.value_or(setup.scene.output.fields));
-  return std::make_unique<Watch>(recorder_, *this, setup.scene.time.end);
+  return std::make_unique<RecorderObserver>(recorder_, *this, setup.scene.time.end);
 }
 
-void Listener::look_up(double t, double end) {
+void Listener::report_progress(double t, double end) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_look_ < kBetweenLooks) return;
-  last_look_ = now;
-  tell("on_progress", t, end);
+  if (now - last_progress_ < kProgressInterval) return;
+  last_progress_ = now;
+  call_python("on_progress", t, end);
 }
 
 void Listener::rethrow() const {

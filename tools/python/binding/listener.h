@@ -1,4 +1,4 @@
-// Tells Python what a run reports, and hears from it that the run is to end.
+// Forwards a run's messages and progress to Python, and interrupts the run on a Python exception.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -16,39 +16,39 @@
 
 namespace orthodyn::python {
 
-// The run goes on without the interpreter's lock, which is taken for each call into Python. An exception there, Ctrl-C
-// among them, ends the run after the step that it is in; rethrow() then gives it on.
+// The run does not hold the interpreter's lock; each call into Python takes it. An exception in Python, including
+// Ctrl-C, ends the run after the current step; rethrow() then throws it.
 class Listener : public RunListener {
  public:
-  // `told` has on_warning(text), on_notice(text) and on_progress(t, end), or is None. `fields`: what is to be kept in
-  // memory; none: what the scene writes.
-  Listener(pybind11::object told, std::optional<std::vector<std::string>> fields)
-      : told_(std::move(told)), fields_(std::move(fields)) {}
+  // `callbacks`: an object with on_warning(text), on_notice(text) and on_progress(t, end), or None. `fields`: names of
+  // the outputs to keep in memory; empty for those that the scene writes.
+  Listener(pybind11::object callbacks, std::optional<std::vector<std::string>> fields)
+      : callbacks_(std::move(callbacks)), fields_(std::move(fields)) {}
 
-  void on_warning(const std::string& text) override { tell("on_warning", text); }
-  void on_notice(const std::string& text) override { tell("on_notice", text); }
+  void on_warning(const std::string& text) override { call_python("on_warning", text); }
+  void on_notice(const std::string& text) override { call_python("on_notice", text); }
   std::unique_ptr<Observer> on_begin(const Setup& setup) override;
   void on_result(const RunResult&) override { computed_ = true; }
 
   const std::atomic<bool>& interrupt() const { return interrupt_; }
   void rethrow() const;
-  // What was kept; empty where nothing was.
+  // The recorded states, see Recorder::take(); empty if no run has started.
   pybind11::dict take_recording();
 
-  // Between steps, a few times a second.
-  void look_up(double t, double end);
+  // Called between steps; reports a few times a second.
+  void report_progress(double t, double end);
 
  private:
   template <class... Words>
-  void tell(const char* name, const Words&... words);
+  void call_python(const char* name, const Words&... words);
 
-  pybind11::object told_;
+  pybind11::object callbacks_;
   std::optional<std::vector<std::string>> fields_;
   std::shared_ptr<Recorder> recorder_;
-  bool computed_ = false;  // what follows is the estimate of the error
+  bool computed_ = false;  // true during the error estimate that follows the run
   std::atomic<bool> interrupt_{false};
   std::exception_ptr thrown_;
-  std::chrono::steady_clock::time_point last_look_ = {};
+  std::chrono::steady_clock::time_point last_progress_ = {};
 };
 
 }  // namespace orthodyn::python

@@ -1,12 +1,15 @@
-// orthodyn._core: the library as Python sees it. orthodyn/*.py put a friendlier face on it.
+// orthodyn._core, the compiled module. The Python modules in orthodyn/ are its user interface.
 #include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cctype>
+#include <string_view>
+#include <utility>
+
 #include "lib/core/versions.h"
 #include "lib/simulation/simulation.h"
 #include "tools/python/binding/arrays.h"
-#include "tools/python/binding/in_python.h"
 #include "tools/python/binding/integrate.h"
 #include "tools/python/binding/listener.h"
 #include "tools/python/binding/python_model.h"
@@ -16,7 +19,33 @@ namespace orthodyn::python {
 
 namespace {
 
-// A Python exception of that name, which is raised for an E.
+constexpr std::pair<const char*, const char*> kWords[] = {{"--estimate-error", "estimate_error=True"},
+                                                          {"--force", "force=True"},
+                                                          {"--resume", "resume=True"},
+                                                          {"--retry", "retry=True"},
+                                                          {"--integrator", "with_integrator"},
+                                                          {"--jobs", "jobs"},
+                                                          {"--out", "out"},
+                                                          {"--set", "set"}};
+
+bool is_part_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '/'; }
+
+// Replaces program options in a message by Python arguments: "use --force to replace it" becomes "use force=True to
+// replace it".
+std::string in_python(std::string message) {
+  for (const auto& [option, argument] : kWords) {
+    const std::string_view word = option;
+    for (auto at = message.find(word); at != std::string::npos; at = message.find(word, at + 1)) {
+      const auto after = at + word.size();
+      if (at > 0 && is_part_of_word(message[at - 1])) continue;
+      if (after < message.size() && is_part_of_word(message[after])) continue;
+      message.replace(at, word.size(), argument);
+    }
+  }
+  return message;
+}
+
+// Declares the Python exception `name`, which is raised for a C++ exception of type E.
 template <class E>
 void declare_error(py::module_& m, const char* name, PyObject* base, const char* doc) {
   static py::exception<E> type(m, name, base);
@@ -32,16 +61,16 @@ void declare_error(py::module_& m, const char* name, PyObject* base, const char*
 
 void declare_errors(py::module_& m) {
   declare_error<ConfigError>(m, "ConfigError", PyExc_ValueError,
-                             "The input is at fault: what was found, where (file:line), what is allowed, what to do.");
+                             "Invalid input: what was found, where (file:line), what is allowed, what to do.");
   declare_error<RunError>(m, "RunError", PyExc_RuntimeError,
-                          "A computation could not go on: how far it came, why, what to try.");
+                          "A computation failed: the time reached, the reason, what to try.");
   py::register_exception<RecoverableError>(m, "RecoverableError", PyExc_RuntimeError).doc() =
-      "Not this state; a model of one's own raises it to ask for a smaller step.";
+      "The state cannot be evaluated; raise it in a Problem to request a smaller step.";
 }
 
 py::tuple run_simulation(const Simulation& simulation, const std::string& folder, bool force, bool resume,
-                         bool estimate_error, std::optional<std::vector<std::string>> fields, py::object told) {
-  Listener listener(std::move(told), std::move(fields));
+                         bool estimate_error, std::optional<std::vector<std::string>> fields, py::object callbacks) {
+  Listener listener(std::move(callbacks), std::move(fields));
   RunResult result;
   {
     const py::gil_scoped_release unlocked;
@@ -53,7 +82,7 @@ py::tuple run_simulation(const Simulation& simulation, const std::string& folder
 }
 
 void declare_simulation(py::module_& m) {
-  py::class_<Simulation>(m, "Simulation", "A scene that can be run, once or many times.")
+  py::class_<Simulation>(m, "Simulation", "A scene that can be run, once or several times.")
       .def_static(
           "from_text",
           [](const std::string& text, const std::string& name, std::vector<std::string> set,
@@ -130,7 +159,7 @@ Pattern pattern_of(const std::vector<int>& column_start, const std::vector<int>&
 }
 
 void declare_own_models(py::module_& m) {
-  py::class_<PythonModel>(m, "PythonModel", "M q'' = f(t, q, v) by functions in Python.")
+  py::class_<PythonModel>(m, "PythonModel", "M q'' = f(t, q, v) defined by Python functions.")
       .def(py::init([](const Vector& mass, py::function force, py::object tangent, const std::vector<int>& column_start,
                        const std::vector<int>& row, bool symmetric, bool damped, bool linear, bool time_dependent) {
         return std::make_unique<PythonModel>(PythonModelParts{mass, std::move(force), std::move(tangent),
@@ -146,7 +175,7 @@ void declare_own_models(py::module_& m) {
 
 }  // namespace
 
-// The keys of each integrator.
+// Option names of each integrator.
 py::dict integrators() {
   py::dict out;
   for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {

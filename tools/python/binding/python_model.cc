@@ -14,14 +14,14 @@ namespace {
 namespace py = pybind11;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// An array of its own: what Python keeps of it stays as it is.
+// A copy, so that an array that Python keeps does not change later.
 Numbers copied(const ConstVectorRef& x) { return Numbers(static_cast<py::ssize_t>(x.size()), x.data()); }
 
 Numbers numbers(const py::object& given, py::ssize_t size, const char* what) {
   const auto array = given.is_none() ? Numbers() : Numbers::ensure(given);
   if (given.is_none() || !array) {
     PyErr_Clear();
-    throw py::type_error(fmt::format("{} is no array of numbers", what));
+    throw py::type_error(fmt::format("{} is not an array of numbers", what));
   }
   if (array.size() != size)
     throw py::value_error(fmt::format("{} has {} numbers, expected {}", what, array.size(), size));
@@ -47,7 +47,7 @@ template <class Call>
 py::object PythonModel::called(Call&& call) const {
   try {
     return call();
-  } catch (const py::builtin_exception& error) {  // what was given is of no use
+  } catch (const py::builtin_exception& error) {  // the function returned an unusable value
     thrown_ = std::current_exception();
     throw RunError(error.what());
   } catch (const py::error_already_set& error) {
@@ -80,7 +80,8 @@ void PythonModel::assemble(double t, const ConstVectorRef& q, const ConstVectorR
   };
   called([&]() -> py::object {
     const py::object both = parts_.tangent(t, copied(q), copied(v));
-    if (!py::isinstance<py::tuple>(both) || py::len(both) != 2) throw py::type_error("the tangent is no pair (K, D)");
+    if (!py::isinstance<py::tuple>(both) || py::len(both) != 2)
+      throw py::type_error("the tangent is not a pair (K, D)");
     const auto pair = both.cast<py::tuple>();
     out.stiffness = values(pair[0], "the stiffness");
     out.damping.clear();

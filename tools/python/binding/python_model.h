@@ -1,4 +1,4 @@
-// A model whose force, and tangent if it has one, are functions in Python.
+// A Model whose force and tangent are Python functions.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -13,14 +13,14 @@ namespace orthodyn::python {
 struct PythonModelParts {
   Vector mass;               // kg, of each coordinate
   pybind11::function force;  // f(t, q, v), N
-  pybind11::object tangent;  // (K, D) of (t, q, v) as values on the pattern, D or None
-  Pattern pattern;           // the lower triangle where it is symmetric
-  bool damped = false;       // the tangent has a D
+  pybind11::object tangent;  // (t, q, v) -> (K, D), values on the pattern; D may be None
+  Pattern pattern;           // lower triangle only if symmetric
+  bool damped = false;       // the tangent returns D
   bool linear = false, time_dependent = true;
 };
 
-// The interpreter's lock must be held where it is used. A function that raises RecoverableError asks for a smaller
-// step; any other exception ends the run.
+// Precondition of all calls: the interpreter's lock is held. A Python function requests a smaller step by raising
+// RecoverableError; any other exception ends the run.
 class PythonModel : public Model {
  public:
   explicit PythonModel(PythonModelParts parts);
@@ -33,7 +33,7 @@ class PythonModel : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { y = parts_.mass.cwiseProduct(x); }
   void solve_mass(VectorRef x) const override { x = x.cwiseQuotient(parts_.mass); }
 
-  // What a function threw, if any did: integrators know failures only by their words.
+  // Throws the exception of a Python function, if there was one, because integrators keep only its message.
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }

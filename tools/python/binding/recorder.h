@@ -1,4 +1,4 @@
-// Keeps the states of a run in memory, for numpy.
+// Records the states of a run in memory, as numpy arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,15 +12,16 @@ namespace orthodyn::python {
 
 class Recorder : public Observer {
  public:
-  // `fields`: node or cell outputs of the source that is observed, which must outlive the run.
+  // `fields`: names of outputs of `source` at nodes or cells; other names are ignored.
   Recorder(const OutputSource& source, const std::vector<std::string>& fields);
 
   void on_start(const ObservedState& observed) override { record(observed); }
   void on_resume(const ObservedState&) override { complete_ = false; }
   void on_output(const ObservedState& observed) override { record(observed); }
 
-  // "times" (frames,), "points" (nodes, 3), "cells" (cells, nodes of each), and each field (frames, nodes or cells,
-  // components). Takes them out; empty where a run was resumed, whose first frames are in files only.
+  // Moves out "times" (frames,), "points" (nodes, 3), "cells" (cells, nodes per cell), "fields" by name (frames, nodes
+  // or cells, components) and "cell_fields", the names of the fields at cells. Empty after a resumed run, whose first
+  // frames are only in files.
   pybind11::dict take();
 
  private:

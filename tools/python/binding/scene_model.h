@@ -1,4 +1,4 @@
-// The model of a scene, for Python: what a Simulation builds inside.
+// The finite element model of a scene, for Python.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -24,26 +24,26 @@ class SceneModel {
   const State& initial() const { return setup_.built.initial; }
   const Setup& setup() const { return setup_; }
 
-  // Free coordinates only; throw ValueError for vectors of another length.
+  // Vectors contain only the free coordinates. A vector of another length raises ValueError.
   Vector force(double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
-  // Values of K, and of D or none, on pattern().
+  // Values of K and D on pattern(); D is empty without damping.
   std::pair<std::vector<double>, std::vector<double>> tangent(double t, const ConstVectorRef& q,
                                                               const ConstVectorRef& v, bool gauss_newton) const;
   std::vector<double> mass() const;
   Vector solve_mass(const ConstVectorRef& x) const;
 
-  // (nodes, 3): the number of each free coordinate, -1 where it is held.
+  // (nodes, 3): number of each coordinate among the free ones, -1 if prescribed.
   std::vector<int> unknowns() const;
   std::vector<double> points() const;
   std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q,
                                const ConstVectorRef& v) const;
 
-  // Hz, and the shapes (count x n), M-orthonormal.
+  // Frequencies in Hz; shapes (count x n), M-orthonormal; relative mesh errors.
   struct FoundModes {
     std::vector<double> frequencies, shapes, mesh_errors;
   };
   FoundModes modes(int count, bool about_equilibrium) const;
-  // Free displacements under all loads at the end of the scene's time.
+  // Displacements (m) of the free coordinates in static equilibrium under the loads at the end of the scene's time.
   Vector equilibrium() const;
 
  private:

@@ -7,12 +7,12 @@
     result.view()
 
 A `Scene` is a YAML file or a dict; running it gives a `Result` with numpy arrays. `Scene.model()` is its finite element
-model as an object; a `Problem` is a model of one's own, `M q'' = f(t, q, v)`, for every integrator. `compare`, `sweep`,
-`stability` and `converge` run studies and give data frames.
+model; a `Problem` is a user-defined model `M q'' = f(t, q, v)` for any integrator. `compare`, `sweep`, `stability` and
+`converge` run studies and return data frames.
 """
 from pathlib import Path as _Path
 
-# The drawing tool is a package of its own where the program finds it: within a wheel, or below the prefix.
+# The drawing tool is not among the Python modules: it is installed in share/orthodyn, in the wheel or below the prefix.
 _here = _Path(__file__).parent
 __path__.extend(str(folder) for folder in (_here / "share" / "orthodyn", *(up / "share" / "orthodyn" for up in _here.parents[3:4]))
                 if (folder / "draw").is_dir())

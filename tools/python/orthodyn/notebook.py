@@ -1,4 +1,4 @@
-"""Pages within a notebook."""
+"""HTML pages in a notebook."""
 from __future__ import annotations
 
 import html
@@ -9,10 +9,10 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Page:
-    """A page that a notebook shows; anywhere else open `path` in a browser."""
+    """An HTML page that a notebook shows; elsewhere open `path` in a browser."""
     path: Path
     height: int
-    shown: Any = None  # results whose folders hold it
+    shown: Any = None  # keeps the results, and so the temporary folders that contain the page
 
     def _repr_html_(self) -> str:
         page = html.escape(self.path.read_text(encoding="utf-8"), quote=True)

@@ -1,4 +1,4 @@
-"""Figures in one line."""
+"""Plots of result tables."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -17,7 +17,8 @@ def new_axes(ax: Axes | None) -> Axes:
 
 
 def plot_table(table: Table, columns: str | list[str] | None, ax: Axes | None) -> Axes:
-    """Columns over the first one. All have one unit."""
+    """Plots columns that have the same unit over the first column. By default: all columns with the unit of the
+    second."""
     columns = [columns] if isinstance(columns, str) else columns
     for name in columns or ():
         if name not in table:
@@ -27,7 +28,7 @@ def plot_table(table: Table, columns: str | list[str] | None, ax: Axes | None) -
     if len(units) > 1 and columns is None:
         chosen = [column for column in chosen if column.unit == chosen[0].unit]
     elif len(units) > 1:
-        raise ValueError(f"columns of several units, {', '.join(units)}: plot them one by one")
+        raise ValueError(f"columns with different units, {', '.join(units)}: plot them separately")
     ax = new_axes(ax)
     for column in chosen:
         ax.plot(table.axis.values, column.values, label=column.name)

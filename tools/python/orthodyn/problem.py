@@ -1,4 +1,4 @@
-"""A model of one's own, M q'' = f(t, q, v), for every integrator of the library."""
+"""User-defined models M q'' = f(t, q, v) for the integrators of the library."""
 from __future__ import annotations
 
 import numbers
@@ -18,7 +18,7 @@ EPS = np.finfo(float).eps
 
 @dataclass(frozen=True, repr=False)
 class Solution:
-    """`t` (k,), `q` and `v` (k, n) at the start and the times asked for; `statistics` and `decisions` of the integrator."""
+    """`t` (k,), `q` and `v` (k, n) at the start and the requested times; `statistics` and `decisions` of the integrator."""
     t: np.ndarray
     q: np.ndarray
     v: np.ndarray
@@ -34,14 +34,16 @@ class Problem:
 
     mass       (n,), all positive
     force      f(t, q, v) -> (n,)
-    stiffness  K = -df/dq: a matrix, or a function of (t, q, v) that gives one; dense or scipy.sparse. Without it, and for
-               methods that need it, differences of the force, in 2 n + 1 calls
-    damping    D = -df/dv likewise; only with `stiffness`
-    symmetric  K and D are symmetric: only their lower triangles are read
-    linear     f(t, q, v) = f(t, 0, 0) - K q - D v with constant K and D
+    stiffness  K = -df/dq: a matrix or a function (t, q, v) -> matrix, dense or scipy.sparse. Without it, methods that
+               need K and D use difference quotients, each time with 2 n + 1 calls of the force
+    damping    D = -df/dv, given like `stiffness` and only together with it
+    symmetric  whether K and D are symmetric; then only their lower triangles are read
+    linear     whether f(t, q, v) = f(t, 0, 0) - K q - D v with constant K and D
+    time_dependent
+               whether f depends on t
 
-    A force that raises RecoverableError asks for a smaller step. What a sparse matrix stores at the start, zeros included, is
-    all that is read of later ones.
+    A force that raises RecoverableError requests a smaller step. The entries that sparse matrices store at the start,
+    including zeros, are the sparsity pattern; later entries outside of the pattern are ignored.
     """
 
     def __init__(self, mass: Sequence[float], force: StateFunction, stiffness: Matrix | StateFunction | None = None,
@@ -49,14 +51,14 @@ class Problem:
                  time_dependent: bool = True) -> None:
         self.mass = np.array(mass, float)
         if self.mass.ndim != 1 or not self.mass.size:
-            raise ValueError(f"mass: has the shape {self.mass.shape}, expected (n,), the diagonal; with another mass M give ones, "
-                             "and M^-1 f as force")
+            raise ValueError(f"mass: has the shape {self.mass.shape}, expected the diagonal (n,); for another mass matrix M give "
+                             "ones as mass and M^-1 f as force")
         if not (self.mass > 0).all():
             raise ValueError("mass: expected positive numbers")
         if not callable(force):
             raise TypeError(f"force: expected a function of (t, q, v), found {force!r}")
         if damping is not None and stiffness is None:
-            raise ValueError("damping without stiffness: give both, or none for differences")
+            raise ValueError("damping without stiffness: give both, or neither to use difference quotients")
         self.n, self.force = self.mass.size, force
         self._stiffness, self._damping = (_function(m) for m in (stiffness, damping))
         self._symmetric, self._linear, self._time_dependent = symmetric, linear, time_dependent
@@ -66,14 +68,14 @@ class Problem:
               velocity_scale: float | None = None, **options: Any) -> Solution:
         """The motion from q0, v0 over t_span.
 
-        integrator      any that `orthodyn list integrators` names; `auto` chooses one, which `decisions` tells. Options are its
-                        keys: rtol=1e-6, step=1e-3, ...
-        times           when the state is wanted, or how many evenly spaced ones; the end is always among them
+        integrator      a name of `orthodyn list integrators`; `auto` chooses one and reports it in `decisions`. Its options are
+                        keyword arguments: rtol=1e-6, step=1e-3, ...
+        times           output times, or their number if they are evenly spaced; the end is always included
         position_scale, velocity_scale
-                        sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0, or
-                        what follows from the other one
-        Raises ConfigError for options, what the functions raise, and RunError where the computation could not go on: its
-        `result` holds what was computed so far.
+                        amplitudes of the motion, to which tolerances are relative; default the largest magnitude in q0
+                        and in v0, or if that is 0 an estimate from the other scale
+        Raises ConfigError for wrong options, exceptions of the functions, and RunError if the computation fails. The
+        RunError's `result` holds what was computed so far.
         """
         start, end = map(float, t_span)
         q, v = np.array(q0, float), np.zeros(self.n) if v0 is None else np.array(v0, float)
@@ -81,7 +83,7 @@ class Problem:
             if given.shape != (self.n,):
                 raise ValueError(f"{name}: has the shape {given.shape}, expected ({self.n},), as the mass")
             if not np.isfinite(given).all():
-                raise ValueError(f"{name}: holds what is not a finite number: {given}")
+                raise ValueError(f"{name}: has values that are not finite: {given}")
         if not start < end:
             raise ValueError(f"t_span: expected the start before the end, found ({start}, {end})")
         if isinstance(times, numbers.Integral) and times < 1:
@@ -90,13 +92,13 @@ class Problem:
                   else np.array(times, float))
         wanted = wanted[wanted > start]
         if not wanted.size or wanted[-1] > end or (np.diff(wanted) <= 0).any():
-            raise ValueError("times: expected ascending ones within t_span")
+            raise ValueError("times: expected ascending times within t_span")
         if wanted[-1] < end:
             wanted = np.append(wanted, end)
         known = _core.integrators()
         unsymmetric = self._stiffness is None or not self._symmetric
         if unsymmetric and "linear_solver" in known.get(integrator, ()):
-            options.setdefault("linear_solver", "klu")  # the faster ones are for symmetric matrices
+            options.setdefault("linear_solver", "klu")  # the faster solvers need symmetric matrices
         scales = self._scales(start, end, q, v, position_scale, velocity_scale)
         found = self._core(start, q, v, scales).integrate(as_yaml({"type": integrator, **options}), start, q, v,
                                                           wanted.tolist(), *scales)
@@ -116,11 +118,10 @@ class Problem:
         acceleration = float(np.abs(force / self.mass).max())
         if found[0] > 0 and not found[1] > 0:
             found[1] = (acceleration * found[0]) ** 0.5 or found[0]
-        if found[1] > 0 and not found[0] > 0:  # a throw from the origin, until a force like the present one stops it
+        if found[1] > 0 and not found[0] > 0:  # distance until the initial force stops the motion, at most v (end - t)
             found[0] = min(found[1] * (end - t), found[1] ** 2 / acceleration if acceleration > 0 else np.inf)
         if not min(found) > 0:
-            raise ValueError("position_scale and velocity_scale: the start is at rest in the origin and tells no size of the "
-                             "motion; give both")
+            raise ValueError("position_scale and velocity_scale: cannot be estimated from a start at rest in the origin; give both")
         return found[0], found[1]
 
     def _core(self, t: float, q: np.ndarray, v: np.ndarray, scales: tuple[float, float]) -> _core.PythonModel:
@@ -130,22 +131,22 @@ class Problem:
             tangent = _differences(self.force, scales)
             return _core.PythonModel(self.mass, self.force, tangent, full.indptr, full.indices, False, True, False,
                                      self._time_dependent)
-        first = [self._places(name, f(t, q, v)) for name, f in (("stiffness", self._stiffness), ("damping", self._damping))
+        first = [self._pattern(name, f(t, q, v)) for name, f in (("stiffness", self._stiffness), ("damping", self._damping))
                  if f is not None]
         pattern = sum(first, scipy.sparse.identity(self.n, format="csc"))
         pattern = (scipy.sparse.tril(pattern) if self._symmetric else pattern).tocsc()
         pattern.sort_indices()
-        take = _Taker(pattern)
+        on_pattern = _PatternValues(pattern)
         stiffness, damping = self._stiffness, self._damping
 
         def sparse(at: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-            return take(stiffness(at, q, v)), None if damping is None else take(damping(at, q, v))
+            return on_pattern(stiffness(at, q, v)), None if damping is None else on_pattern(damping(at, q, v))
 
         return _core.PythonModel(self.mass, self.force, sparse, pattern.indptr, pattern.indices, self._symmetric,
                                  damping is not None, self._linear, self._time_dependent)
 
-    def _places(self, name: str, matrix: Matrix) -> Any:
-        """Ones where it stores an entry; of a dense one everywhere."""
+    def _pattern(self, name: str, matrix: Matrix) -> Any:
+        """The sparsity pattern of a matrix, with ones as values; full for a dense matrix."""
         import scipy.sparse
         if np.shape(matrix) != (self.n, self.n):
             raise ValueError(f"{name}: has the shape {np.shape(matrix)}, expected ({self.n}, {self.n})")
@@ -165,11 +166,11 @@ def _numbers(given: Any) -> np.ndarray:
             raise TypeError
         return np.asarray(given, float)
     except (TypeError, ValueError):
-        raise TypeError(f"the force is no array of numbers: {given!r}") from None
+        raise TypeError(f"the force is not an array of numbers: {given!r}") from None
 
 
-class _Taker:
-    """The entries of matrices on a pattern."""
+class _PatternValues:
+    """Extracts the entries of matrices on a sparsity pattern."""
 
     def __init__(self, pattern: Any) -> None:
         self._row = pattern.indices
@@ -187,7 +188,7 @@ def _function(given: Matrix | StateFunction | None) -> StateFunction | None:
 
 
 def _differences(force: StateFunction, scales: tuple[float, float]) -> StateFunction:
-    """K and D, column by column."""
+    """The tangent (K, D) by difference quotients, column by column."""
     def tangent(t: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         f = np.asarray(force(t, q.copy(), v.copy()), float)
         columns = []

@@ -1,35 +1,22 @@
-"""How far a run is: one line that is written over."""
+"""Progress of a run, in one line that is overwritten."""
 from __future__ import annotations
 
 import sys
 import time
 
 
-class Silence:
-    """Nothing."""
-
-    def show(self, now: float, end: float) -> None:
-        pass
-
-    def say(self, text: str) -> None:
-        pass
-
-    def end(self) -> None:
-        pass
-
-
 class Progress:
-    """The part that is done, and about how long the rest takes, on stderr."""
+    """Shows the completed percentage and the estimated remaining time on stderr."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, wanted: bool | None) -> None:
+        """`wanted`: whether to show the progress; None: in a terminal or a notebook only."""
+        self._is_on = (sys.stderr.isatty() or "ipykernel" in sys.modules) if wanted is None else wanted
         self._name, self._began, self._shown = name, time.monotonic(), 0
         self._first: float | None = None
 
-    @staticmethod
-    def wanted(asked: bool | None) -> bool:
-        return (sys.stderr.isatty() or "ipykernel" in sys.modules) if asked is None else asked
-
     def show(self, now: float, end: float) -> None:
+        if not self._is_on:
+            return
         if self._first is None:
             self._first = now
         part = (now - self._first) / (end - self._first) if end > self._first else 1.0
@@ -38,6 +25,8 @@ class Progress:
         self._write(f"{self._name}: {100 * part:3.0f} %, t = {now:.4g} s{rest}")
 
     def say(self, text: str) -> None:
+        if not self._is_on:
+            return
         self._write(text)
         sys.stderr.write("\n")
 

@@ -1,4 +1,4 @@
-"""What came of a run: arrays, tables, and the record of how it was computed."""
+"""Results of runs: arrays, tables, and the record of the computation."""
 from __future__ import annotations
 
 import json
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-TEMPORARY = "orthodyn-"  # how folders of results begin that have no place of their own
+TEMPORARY = "orthodyn-"  # prefix of temporary result folders
 CELL_TYPES = {4: "tetra", 10: "tetra10"}
 
 
 class Columns(dict[str, np.ndarray]):
-    """The columns of a table, by name; says which there are where a name is none of them."""
+    """The columns of a table by name; an unknown name raises a KeyError that lists the names."""
 
     def __missing__(self, name: str) -> np.ndarray:
         raise KeyError(f"no column '{name}'; there are {', '.join(self)}")
 
 
 class Result:
-    """The result of a run. Fields that a run in this process kept are those that the library computed, in double precision;
-    all others, and those of `Result.load`, are read from the frames, in single."""
+    """The result of a run. Fields that a run in this process kept in memory have double precision. All other fields are
+    read from the frames, in single precision."""
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
@@ -39,7 +39,7 @@ class Result:
         self._from_frames: dict[str, np.ndarray] = {}
 
     def _keep(self, kept: dict[str, Any]) -> None:
-        """What a run had in memory."""
+        """Stores the fields that a run kept in memory."""
         self._kept = kept
 
     @classmethod
@@ -51,7 +51,7 @@ class Result:
 
     @cached_property
     def record(self) -> dict[str, Any]:
-        """run.json: what was computed, how, by what, and what of it is in doubt."""
+        """Content of run.json: model, method, cost, errors and warnings."""
         try:
             return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
         except FileNotFoundError:
@@ -69,7 +69,7 @@ class Result:
 
     @property
     def warnings(self) -> list[str]:
-        """What of the result should not be taken on trust."""
+        """Warnings about the result."""
         return self.record.get("warnings", [])
 
     @cached_property
@@ -77,26 +77,26 @@ class Result:
         try:
             return Series(str(self.folder))
         except DrawError as error:
-            raise FileNotFoundError(f"{self._by_name(error)} (tables that are there: {self._tables()})") from None
+            raise FileNotFoundError(f"{self._by_name(error)} (available tables: {self._tables()})") from None
 
     @cached_property
     def times(self) -> np.ndarray:
-        """(frames,), s; of a static analysis the load factors."""
+        """Times (frames,), s; load factors of a static analysis."""
         return self._kept["times"] if "times" in self._kept else self._series.times
 
     @cached_property
     def points(self) -> np.ndarray:
-        """(nodes, 3), m: the rest shape."""
+        """Rest positions (nodes, 3), m."""
         return self._kept["points"] if "points" in self._kept else self._series.frame(0).points
 
     @cached_property
     def cells(self) -> np.ndarray:
-        """(elements, 4 or 10): the nodes of each."""
+        """Nodes of the elements (elements, 4 or 10)."""
         return self._kept["cells"] if "cells" in self._kept else self._series.frame(0).cells
 
     @property
     def fields(self) -> list[str]:
-        """The names that `result[name]` takes."""
+        """Names for `result[name]`."""
         names = list(self._kept.get("fields", {}))
         if (self.folder / "frames.pvd").is_file():
             frame = self._series.frame(0)
@@ -132,12 +132,13 @@ class Result:
 
     @property
     def stress(self) -> np.ndarray:
-        """(frames, nodes or elements, 6), Pa: Cauchy's, xx yy zz xy yz zx; recovered at the nodes where the scene writes
-        that."""
+        """Cauchy stress (frames, nodes or elements, 6), Pa: xx yy zz xy yz zx; recovered nodal stress if the scene writes
+        it."""
         return self["nodal_stress" if "nodal_stress" in self.fields else "stress"]
 
     def table(self, name: str) -> dict[str, np.ndarray]:
-        """The columns of a CSV file: "probes", "energy", "momentum", "steps", ... The first is t, s."""
+        """The columns of a CSV file: "probes", "energy", "momentum", "steps", ... The first column is t (s), or the
+        load factor of a static analysis."""
         return Columns((column.name, column.values) for column in self._table(name).columns.values())
 
     def _table(self, name: str) -> Table:
@@ -150,7 +151,7 @@ class Result:
             raise FileNotFoundError(self._by_name(error)) from None
 
     def _by_name(self, error: DrawError) -> str:
-        """A message without the temporary folder, which is none of the user's."""
+        """A message without the name of a temporary folder."""
         return str(error).replace(f"{self.folder}/", "") if self._is_temporary else str(error)
 
     @property
@@ -162,22 +163,22 @@ class Result:
 
     @property
     def probes(self) -> dict[str, np.ndarray]:
-        """What the scene's probes measured: a column each, and t."""
+        """Values of the scene's probes: t (or the load factor) and one column per value."""
         return self.table("probes")
 
     @property
     def energies(self) -> dict[str, np.ndarray]:
-        """J: kinetic, elastic, ... and the balance, which should stay zero."""
+        """Energies, J: kinetic, elastic, ... and the balance, which should stay zero."""
         return self.table("energy")
 
     def to_pandas(self, table: str = "probes") -> pandas.DataFrame:
-        """A table as a data frame over time."""
+        """A table as a data frame whose index is the first column."""
         import pandas
         columns = self.table(table)
         return pandas.DataFrame(columns).set_index(next(iter(columns)))
 
     def to_meshio(self, frame: int = -1) -> meshio.Mesh:
-        """One frame: the rest shape, with the displacement and all other fields."""
+        """One frame as a meshio.Mesh: the rest shape with the displacement and all other fields."""
         import meshio
         nodes, cells = len(self.points), len(self.cells)
         values = {name: self[name][frame] for name in self.fields}
@@ -187,37 +188,37 @@ class Result:
 
     def view(self, *others: Result | str | Path, out: str | Path | None = None, volume: bool = False, height: int = 620,
              time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
-        """A page with a 3D view, which a notebook shows. `others`: a result beside it or its folder, or
-        several to choose from; `volume`: also what is inside, for the clip
-        plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins.
-        Without `scale` a deflection that is too small to be seen is enlarged, which the page says."""
+        """A page with a 3D view, which a notebook shows. `others`: results or folders to compare with. `volume`: include the
+        interior, for the clip plane. `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation set the initial
+        view. Without `scale`, a deflection too small to see is enlarged, as the page then states."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
-        folders = [str(getattr(result, "folder", result)) for result in (self, *others)]
+        from .draw.view_sources import sources_of
+        folders = [getattr(result, "folder", result) for result in (self, *others)]
         given = {"scale": scale, "time": time, "color": color}
         start = {key: value if key == "color" else float(value) for key, value in given.items() if value is not None}
         try:
-            path = write_view(folders, out, Extent(volume=volume), start)
+            path = write_view(sources_of(folders), out, Extent(volume=volume), start)
         except DrawError as error:
             raise ValueError(str(error)) from None
         return Page(path, height, (self, *others))
 
     def plot(self, table: str = "probes", columns: str | list[str] | None = None, ax: Axes | None = None) -> Axes:
-        """The columns of a table over time."""
+        """Plots columns of a table over its first column."""
         from .plots import plot_table
         return plot_table(self._table(table), columns, ax)
 
     def __repr__(self) -> str:
         name = self.folder.name if self._is_temporary else self.folder
-        return f"Result({name}, {self.status or 'no record'}{self._by_the_mesh()})"
+        return f"Result({name}, {self.status or 'no record'}{self._mesh_error()})"
 
-    def _by_the_mesh(self) -> str:
-        """Its error, if the record has one."""
+    def _mesh_error(self) -> str:
+        """The mesh error in words; "" if the record has none."""
         share = (self.record.get("errors") or {}).get("mesh")
         if share is not None:
-            return f", error of the mesh {100 * share:.2g} % of the elastic energy"
+            return f", mesh error {100 * share:.2g} % of the elastic energy"
         modes = [mode["mesh_error"] for mode in self.record.get("modes") or () if mode.get("mesh_error") is not None]
-        return f", by the mesh the lowest load factor {100 * modes[0]:+.2g} %" if modes else ""
+        return f", mesh error {100 * modes[0]:+.2g} % of the lowest load factor" if modes else ""
 
     def _is_of_cells(self, name: str) -> bool:
         if name in self._kept.get("cell_fields", ()):

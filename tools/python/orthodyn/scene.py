@@ -1,4 +1,4 @@
-"""A scene: one body, what acts on it, and how its motion is computed."""
+"""Scenes: a body, its loads and supports, and the method of computation."""
 from __future__ import annotations
 
 import json
@@ -14,20 +14,20 @@ from typing import Any
 
 from . import _core
 from .model import Model
-from .progress import Progress, Silence
+from .progress import Progress
 from .result import TEMPORARY, Result
 
 
 class OrthodynWarning(UserWarning):
-    """What the program prints as a warning: something about a scene or a result that should not be taken on trust."""
+    """A warning of the program about a scene or a result."""
 
 
 class Scene:
-    """A scene from a dict, as its YAML file would hold it. `Scene.load` reads a file. A scene never changes: `set` and
-    `with_integrator` return another one."""
+    """A scene from a dict with the content of its YAML file. `Scene.load` reads a file. Scenes are immutable: `set` and
+    `with_integrator` return a new one."""
 
     def __init__(self, scene: Mapping[str, Any], name: str = "scene") -> None:
-        """`name` stands for the file in messages; files that the scene names are looked for in the working directory."""
+        """`name` replaces the file name in messages; file names in the scene are relative to the working directory."""
         if not isinstance(scene, Mapping):
             raise TypeError(f"expected a scene as a dict, found {scene!r}; Scene.load reads a file")
         self._text = as_yaml(scene)
@@ -39,7 +39,7 @@ class Scene:
 
     @classmethod
     def load(cls, file: str | Path) -> Scene:
-        """The scene of a YAML file. Raises ConfigError if it cannot be read."""
+        """Reads a YAML file. Raises ConfigError if it cannot be read."""
         try:
             text = Path(file).read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
@@ -50,12 +50,12 @@ class Scene:
         return made
 
     def set(self, path: str, value: Any) -> Scene:
-        """The scene with another value at a path such as "integrator.rtol" or "materials.spruce.young.0". A str is YAML, as
-        after --set on the command line: "12 GPa", "null"."""
+        """A scene with another value at a path such as "integrator.rtol" or "materials.spruce.young.0". A str is read as YAML,
+        as with --set on the command line: "12 GPa", "null"."""
         return self._changed(_set=(*self._set, f"{path}={value if isinstance(value, str) else as_yaml(value)}"))
 
     def with_integrator(self, name: str) -> Scene:
-        """The scene with another integrator; options that both have are kept."""
+        """A scene with another integrator. Options that this integrator also has are kept."""
         known = _core.integrators()
         if name not in known:
             raise _core.ConfigError(f"no integrator '{name}'; there are {', '.join(known)}")
@@ -64,7 +64,7 @@ class Scene:
     def _changed(self, **attributes: Any) -> Scene:
         made = object.__new__(type(self))
         made.__dict__.update(self.__dict__, **attributes)
-        made._simulation()  # a change that does not apply is told where it is made
+        made._simulation()  # reports an invalid change immediately
         return made
 
     def _simulation(self) -> _core.Simulation:
@@ -72,7 +72,7 @@ class Scene:
             return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
 
     def _named(self, text: str) -> str:
-        """A message, in which a scene from a dict goes by its name: there is no file, and no line."""
+        """The message `text`. For a scene from a dict, its name replaces the file and line."""
         return text if self._is_file else re.sub(re.escape(self._file) + r"(:\d+)*", lambda _: self.name, text)
 
     @contextmanager
@@ -85,33 +85,33 @@ class Scene:
 
     @property
     def folder(self) -> Path:
-        """Where files that it names are looked for."""
+        """The folder to which file names in the scene are relative."""
         return Path(self._file).parent
 
     def to_yaml(self) -> str:
-        """The scene as YAML, with its changes."""
+        """The scene as YAML, including its changes."""
         return self._simulation().resolved()
 
     def model(self) -> Model:
-        """The finite element model. Raises ConfigError for a scene that is at fault."""
+        """The finite element model. Raises ConfigError for an invalid scene."""
         simulation = self._simulation()
         with self._by_name():
             return Model(_core.SceneModel(simulation))
 
     def run(self, out: str | Path | None = None, *, force: bool = False, resume: bool = False, estimate_error: bool = False,
             fields: Iterable[str] | None = None, progress: bool | None = None) -> Result:
-        """Computes the scene, as `orthodyn run` does, and returns what came of it.
+        """Runs the scene, as `orthodyn run` does, and returns the result.
 
-        out             folder for the files; without it they are in a temporary one, which goes with the result
+        out             folder of the output files; default a temporary folder that is deleted with the result
         force           replace an earlier result in the folder
-        resume          go on from the checkpoint in the folder
-        estimate_error  then repeat the run more accurately, and compare
-        fields          what is kept in memory at each output; default what the scene writes. All at double precision
-        progress        show how far it is; default in a terminal or a notebook
+        resume          continue from the checkpoint in the folder
+        estimate_error  repeat the run more accurately to estimate its error
+        fields          fields kept in memory at each output, in double precision; default those that the scene writes
+        progress        show the progress; default in a terminal or a notebook
 
-        Warnings are `OrthodynWarning`s. Raises ConfigError before anything is computed, and RunError where the computation
-        could not go on: its `result` holds what was computed so far. Ctrl-C ends the run after the step that it is in; the
-        KeyboardInterrupt has a `result`, too. Other threads run on meanwhile.
+        Warnings are `OrthodynWarning`s. Raises ConfigError for invalid input, before the computation starts, and
+        RunError if the computation fails. The RunError's `result` holds what was computed so far. Ctrl-C ends the run
+        after the current step; the KeyboardInterrupt also has a `result`. Other threads continue during the run.
         """
         holder = tempfile.mkdtemp(prefix=TEMPORARY) if out is None else None
         folder = Path(out) if out is not None else Path(str(holder)) / self.name
@@ -121,19 +121,19 @@ class Scene:
         result = Result(folder)
         if holder:
             weakref.finalize(result, shutil.rmtree, holder, True)
-        told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence(), self._named)
+        callbacks = _Callbacks(Progress(self.name, progress), self._named)
         simulation = self._simulation()
         try:
             with self._by_name():
-                status, message, kept = simulation.run(str(folder), force, resume, estimate_error, fields, told)
+                status, message, kept = simulation.run(str(folder), force, resume, estimate_error, fields, callbacks)
         except KeyboardInterrupt as interrupt:
             interrupt.result = result  # type: ignore[attr-defined]
             raise
         finally:
-            told.progress.end()
+            callbacks.progress.end()
         result._keep(kept)
         for text in result.record.get("warnings", ()):
-            if text not in told.texts:
+            if text not in callbacks.texts:
                 warnings.warn(self._named(_core.in_python(text)), OrthodynWarning, stacklevel=2)
         if status == "failed":
             error = _core.RunError(self._named(_core.in_python(message)))
@@ -152,10 +152,10 @@ class Scene:
         return f"Scene({self.name}{changes})"
 
 
-class _Told:
-    """What a run tells while it works; `named` is what its messages go through."""
+class _Callbacks:
+    """Callbacks of a run for warnings, notices and progress. `named` converts the messages."""
 
-    def __init__(self, progress: Progress | Silence, named: Callable[[str], str]) -> None:
+    def __init__(self, progress: Progress, named: Callable[[str], str]) -> None:
         self.progress = progress
         self._named = named
         self.texts: set[str] = set()
@@ -172,11 +172,11 @@ class _Told:
 
 
 def as_yaml(value: Any) -> str:
-    """Any value of a scene as YAML, which JSON is; numpy's numbers and arrays too."""
+    """Any value of a scene, including numpy numbers and arrays, as JSON, which is valid YAML."""
     def plain(item: Any) -> Any:
         if hasattr(item, "tolist"):
             return item.tolist()
         if isinstance(item, Path):
             return str(item)
-        raise TypeError(f"{type(item).__name__} has no meaning in a scene: {item!r}")
+        raise TypeError(f"{type(item).__name__} cannot be used in a scene: {item!r}")
     return json.dumps(value, default=plain, ensure_ascii=False)

@@ -1,11 +1,11 @@
-"""Studies: many runs, one data frame. Each run is a process of its own, as with the program.
+"""Studies: many runs, one data frame. Each run has its own process, as with the program `orthodyn`.
 
-All take
-    out    the folder; default out/KIND/NAME, by the name of the file or the title. What is done there is not done again
-    retry  do again what failed there
+Common arguments:
+    out    result folder, whose results are reused; default out/KIND/NAME, where NAME comes from the file's name or the
+           title
+    retry  repeat failed points
     quiet  print nothing
-
-compare, sweep and converge have each point computed by `ranks` processes of MPI together.
+    ranks  MPI processes per point (compare, sweep, converge)
 """
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-HERE = Path(__file__).parent  # not resolved: of links in a build tree
+HERE = Path(__file__).parent  # not resolved, because the file is a link in a build tree
 CONFIG_ERROR = 2
 
 
 @dataclass(frozen=True)
 class Study:
-    """What a study wrote: its points as a data frame, its folder, and the page that tells what it says."""
+    """A finished study: its points as a data frame, its folder, and its report."""
     kind: str
     folder: Path
     table: pandas.DataFrame
@@ -48,20 +48,21 @@ class Study:
         return self.folder / "report.html"
 
     def show(self, height: int = 700) -> Page:
-        """The report, which a notebook shows."""
+        """The report as a page for a notebook."""
         return Page(self.report, height)
 
     def view(self, height: int = 620) -> Page:
-        """Its points in 3D: of a sweep and a comparison those that kept `frames`, of hard cases the end states."""
+        """3D view of the points. A sweep or comparison needs `frames`; a stability study shows the last states."""
         from .draw.errors import DrawError
         from .draw.view.page import write_view
+        from .draw.view_sources import source_of
         try:
-            return Page(write_view([str(self.folder)]), height)
+            return Page(write_view([source_of(self.folder)]), height)
         except DrawError as error:
             raise ValueError(str(error)) from None
 
     def plot(self, x: str, y: str, by: str | None = None, ax: Axes | None = None, *, log: bool = False) -> Axes:
-        """One column over another, a line for each value of a third."""
+        """Plots column `y` over `x`, with one line per value of `by`."""
         from .plots import new_axes
         x, y, by = self.column(x), self.column(y), by and self.column(by)
         ax = new_axes(ax)
@@ -79,7 +80,7 @@ class Study:
         return ax
 
     def column(self, name: str) -> str:
-        """The column of that name, with its unit: "deflection" is "deflection [m]"."""
+        """The full name of a column: "deflection" becomes "deflection [m]"."""
         found = [c for c in self.table.columns if c == name or c.split(" [")[0] == name]
         if not found:
             raise KeyError(f"no column '{name}'; there are {', '.join(self.table.columns)}")
@@ -91,44 +92,44 @@ class Study:
 
 def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, retry: bool = False,
             quiet: bool = False, ranks: int | None = None) -> Study:
-    """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold:
+    """Compares integrators on scenes: error against time. `study`: a YAML file, or a dict with its content:
 
         orthodyn.compare({"title": "Beam", "scenes": [scene], "integrators": ["cvode_bdf", "tr_bdf2"],
                           "tolerances": [1e-2, 1e-4]})
 
-    A scene is a file, or a `Scene`. One point is measured after the other. `out`: the folder, default by the title; what is done
-    there is not done again, what failed with `retry`.
+    A scene is a file or a `Scene`. Points are measured one after the other.
     """
     return _run(_Call("compare", out, quiet, retry, ranks=ranks), study)
 
 
 def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
           quiet: bool = False, ranks: int | None = None) -> Study:
-    """A scene over values of its keys:
+    """Varies keys of a scene:
 
         orthodyn.sweep({"title": "Stiffer", "scene": scene, "vary": {"materials.spruce.young.0": ["8 GPa", "12 GPa"]},
                         "quantities": {"deflection": {"quantity": "tip.displacement.z"}}})
 
-    A scene is a file, a `Scene`, or {"file": one of these, "set": {"damping.stiffness": "=zeta/30"}}, where what is varied
-    may have a name of its own, "vary": {"zeta": [0.01, 0.1]}. `jobs` points at a time, default one a processor.
+    A scene is a file, a `Scene`, or {"file": file or Scene, "set": {"damping.stiffness": "=zeta/30"}}. A formula after
+    "=" uses named variables: "vary": {"zeta": [0.01, 0.1]}. `jobs`: concurrent points, default the number of
+    processors.
     """
     return _run(_Call("sweep", out, quiet, retry, jobs, ranks), study)
 
 
 def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None,
               retry: bool = False, quiet: bool = False) -> Study:
-    """Integrators on hard cases: which keep what they should. `jobs` trials at a time, default one a processor."""
+    """Grades integrators on hard cases. `jobs`: concurrent runs, default the number of processors."""
     return _run(_Call("stability", out, quiet, retry, jobs), study)
 
 
 def converge(study: str | Path | Scene, out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
              quiet: bool = False, ranks: int | None = None) -> Study:
-    """A scene, or its file, on finer and finer meshes. `jobs` of them at a time, default one a processor."""
+    """Runs a scene or its file on successively refined meshes. `jobs`: concurrent meshes, default the number of processors."""
     return _run(_Call("converge", out, quiet, retry, jobs, ranks), study)
 
 
 def program() -> str:
-    """The program `orthodyn`: that of this package, else the first on the PATH."""
+    """Path of the program `orthodyn`: that of this package, otherwise the first on the PATH."""
     own = [HERE / "bin" / "orthodyn", *(parent / "orthodyn" for parent in HERE.parents[:2]),  # of a wheel, a build tree,
            *(parent / "bin" / "orthodyn" for parent in HERE.parents[3:4])]  # and of a prefix
     found = next((str(path) for path in own if path.is_file() and os.access(path, os.X_OK)), shutil.which("orthodyn"))
@@ -139,7 +140,7 @@ def program() -> str:
 
 @dataclass(frozen=True)
 class _Call:
-    """Of the program: what it is to do, and how."""
+    """A call of the program."""
     kind: str
     out: str | Path | None
     quiet: bool
@@ -150,7 +151,7 @@ class _Call:
     def folder(self, name: str) -> Path:
         return Path(self.out) if self.out else Path("out") / _FOLDER[self.kind] / name
 
-    def words(self, file: str, folder: Path) -> list[str]:
+    def arguments(self, file: str, folder: Path) -> list[str]:
         counts = {"--jobs": self.jobs, "--ranks": self.ranks}
         given = [word for option, count in counts.items() if count is not None for word in (option, str(count))]
         return [program(), self.kind, file, "--out", str(folder), *["--retry"] * self.retry, *given]
@@ -171,7 +172,7 @@ def _run(call: _Call, study: Any) -> Study:
 
 
 class _Files(ExitStack):
-    """Files for the program, of what is in memory; they go at the end."""
+    """Temporary files with studies and scenes for the program, deleted on exit."""
 
     def __init__(self, kind: str) -> None:
         super().__init__()
@@ -179,7 +180,7 @@ class _Files(ExitStack):
         self.names: dict[str, str] = {}
 
     def add(self, text: str, folder: Path, name: str) -> str:
-        """In that folder, for what the text names is looked for beside it. Messages call it by `name`."""
+        """Writes a file into `folder`, to which file names in the text are relative. Messages use `name` instead of its path."""
         with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{self.kind}-", dir=folder, encoding="utf-8",
                                          delete=False) as stream:
             stream.write(text)
@@ -189,7 +190,7 @@ class _Files(ExitStack):
         return path
 
     def with_files(self, item: Any) -> Any:
-        """The same with a file for each Scene."""
+        """A copy of `item` with each Scene replaced by a file."""
         if isinstance(item, Scene):
             return self.add(item.to_yaml(), item.folder, f"scene '{item.name}'")
         if isinstance(item, Mapping):
@@ -204,7 +205,7 @@ class _Files(ExitStack):
 
 
 def _labelled(entries: Any) -> Any:
-    """With the names of Scenes, whose files have none that tell anything: "beam", "beam 2"."""
+    """Labels Scenes by their names, because their temporary files have arbitrary names: "beam", "beam 2"."""
     if not isinstance(entries, (list, tuple)):
         return entries
     found, seen = [], Counter[str]()
@@ -218,7 +219,7 @@ def _labelled(entries: Any) -> Any:
 
 
 def _name(study: Mapping[str, Any]) -> str:
-    """Of its folder, from its title."""
+    """Name of the result folder, from the title."""
     return re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "")).lower()).strip("_") or "study"
 
 
@@ -227,18 +228,18 @@ _TABLE = {"compare": "compare.csv", "sweep": "sweep.csv", "stability": "stabilit
 
 
 def _start(call: _Call, file: str, folder: Path, named: Callable[[str], str]) -> None:
-    """Runs the program to its end. At Ctrl-C it ends with what is finished; at a second one at once."""
+    """Runs the program. Ctrl-C ends it with the finished points kept; a second Ctrl-C kills it."""
     environment = {**os.environ, "ORTHODYN_END_WITH_PARENT": "1"}
     if sys.executable:
         environment["ORTHODYN_DRAW_PYTHON"] = sys.executable
     with tempfile.TemporaryFile() as errors:
-        # In a group of its own it is this function that passes Ctrl-C on, once, whoever sent it to whom.
-        with subprocess.Popen(call.words(file, folder), stdout=subprocess.DEVNULL if call.quiet else None, stderr=errors,
+        # With its own process group, the program receives Ctrl-C only from this function, once.
+        with subprocess.Popen(call.arguments(file, folder), stdout=subprocess.DEVNULL if call.quiet else None, stderr=errors,
                               env=environment, process_group=0) as process:
             try:
                 process.wait()
             except BaseException as interrupt:
-                interrupt.add_note(f"Points that are finished are kept in {folder}; the same call goes on from there.")
+                interrupt.add_note(f"Finished points are kept in {folder}; the same call continues from there.")
                 _end(process)
                 raise
         errors.seek(0)
@@ -246,7 +247,7 @@ def _start(call: _Call, file: str, folder: Path, named: Callable[[str], str]) ->
     if process.returncode == CONFIG_ERROR:
         raise _core.ConfigError(said.removeprefix("error: "))
     if process.returncode:
-        raise _core.RunError(said or f"{program()} {call.kind} ended with {process.returncode}")
+        raise _core.RunError(said or f"{program()} {call.kind} ended with exit code {process.returncode}")
     if said and not call.quiet:
         sys.stderr.write(said + "\n")
 

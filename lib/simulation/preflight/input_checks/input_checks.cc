@@ -7,23 +7,23 @@
 
 #include "lib/core/golden_ratio_sample.h"
 #include "lib/fem/time_functions/time_function.h"
-#include "lib/scene/region.h"
-#include "lib/simulation/preflight/input_checks/subject.h"
+#include "lib/simulation/preflight/input_checks/check_context.h"
 #include "lib/simulation/run/kinematics.h"
 
 namespace orthodyn {
 
 namespace input_checks {
 
-Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made, bool timed)
-    : config(input),
-      scene(given),
-      built(made),
+CheckContext::CheckContext(const Config& resolved, const Scene& its_scene, const BuiltScene& its_model, bool timed)
+    : config(resolved),
+      scene(its_scene),
+      built(its_model),
       is_timed(timed),
-      box(bounding_box(made.model->parts().mesh)),
+      box(bounding_box(its_model.model->parts().mesh)),
       extent(box.size().maxCoeff()) {
-  for (const auto& term : built.model->parts().elastic)
-    wave = std::max(wave, fastest_wave(material_in(scene, term->region())));
+  const FemModel::Parts& parts = built.model->parts();
+  for (std::size_t k = 0; k < parts.elastic.size(); ++k)
+    wave_speed = std::max(wave_speed, fastest_wave(parts.elastic[k]->stiffness(), parts.densities[k]));
 }
 
 std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path) {
@@ -47,15 +47,23 @@ void visit_keys(const Config& config, const std::string& key, const std::functio
   }
 }
 
-bool names_a_factor(const Config& section) {
+bool is_time_function(const Config& section) {
   return section.is_map() && section.has("type") && section.at("type").is_scalar() &&
          Registry<TimeFunction>::entries().contains(section.at("type").text());
 }
 
-void visit_times(const Subject& subject, const std::function<void(double)>& visit) {
+void visit_time_functions(const CheckContext& context, const std::function<void(const Config&)>& visit) {
+  for (const char* section : {"loads", "terms", "motions"})
+    if (context.config.has(section))
+      visit_keys(context.config.at(section), "factor", [&](const Config& function) {
+        if (is_time_function(function)) visit(function);
+      });
+}
+
+void visit_times(const CheckContext& context, const std::function<void(double)>& visit) {
   constexpr int kSamples = 50;
-  std::vector<double> times{subject.start()}, ends = subject.built.model->breakpoints(subject.start(), subject.end());
-  ends.push_back(subject.end());
+  std::vector<double> times{context.start()}, ends = context.built.model->breakpoints(context.start(), context.end());
+  ends.push_back(context.end());
   for (const double end : ends) {
     const double begin = times.back();
     for (int k = 0; k < kSamples; ++k) times.push_back(begin + (end - begin) * golden_ratio_sample(k));
@@ -68,15 +76,22 @@ void visit_times(const Subject& subject, const std::function<void(double)>& visi
   }
 }
 
-std::string shown_factor(double x) {
+NodalVector load_forces(const FemModel::Parts& parts, const NodalExpansion& nodal) {
+  NodalVector f = NodalVector::Zero(3, nodal.x.cols());
+  for (const auto& load : parts.loads)
+    if (load->energy_kind() != EnergyKind::gravitational) load->add_force(nodal.state(), f);
+  return f;
+}
+
+std::string factor_text(double x) {
   if (std::abs(x) < 10 || std::abs(x) >= 1e6) return fmt::format("{:.2g}", x);
   std::string digits = fmt::format("{:.0f}", x);
   if (digits.size() > 3) digits.insert(digits.size() - 3, ",");
   return digits;
 }
 
-double fastest_wave(const Material& material) {
-  return std::sqrt(voigt(material.stiffness()).diagonal().maxCoeff() / material.density());
+double fastest_wave(const Mat6& stiffness, double density) {
+  return std::sqrt(stiffness.diagonal().maxCoeff() / density);
 }
 
 double distance(const Vec3& point, const Box& box) {
@@ -86,19 +101,18 @@ double distance(const Vec3& point, const Box& box) {
 }  // namespace input_checks
 
 Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
-  const input_checks::Subject subject(config, scene, built, is_timed);
+  const input_checks::CheckContext context(config, scene, built, is_timed);
   Warnings out;
   for (const auto add :
        {input_checks::check_material, input_checks::check_place, input_checks::check_load, input_checks::check_time,
         input_checks::check_motion, input_checks::check_freedom, input_checks::check_turning,
         input_checks::check_damping, input_checks::check_event, input_checks::check_setting})
-    add(subject, out);
-  out.insert(out.end(), config.warnings().begin(), config.warnings().end());
+    add(context, out);
   return out;
 }
 
-Warnings slips_of(const Config& given) {
-  Config config = given.resolving();
+Warnings scene_warnings(const Config& input) {
+  Config config = input.resolving();
   Warnings out;
   try {
     Scene scene = read_scene(config);
@@ -107,11 +121,12 @@ Warnings slips_of(const Config& given) {
       scene = read_scene(config);
     }
     const BuiltScene built = build(scene);
-    out = check_inputs(config, scene, built);
-    if (built.model->num_dofs() > kMostUnknownsOfResponse) return out;
+    out = config.warnings();
+    for (auto& warning : check_inputs(config, scene, built)) out.push_back(std::move(warning));
+    if (built.model->num_dofs() > kMaxUnknownsOfResponse) return out;
     const StaticResponse statics = static_response(*built.model, built.initial, scene.time.end);
-    for (auto& slip : check_response(config, scene, built, statics)) out.push_back(std::move(slip));
-  } catch (const ConfigError&) {  // what refuses the scene is told where it is run
+    for (auto& warning : check_response(config, scene, built, statics)) out.push_back(std::move(warning));
+  } catch (const ConfigError&) {  // reported where the scene is run
   } catch (const RunError&) {
   }
   return out;

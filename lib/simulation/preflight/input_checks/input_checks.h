@@ -1,8 +1,8 @@
-// Slips of unit and magnitude: figures of a scene that can be computed with, but are hardly meant. Each is a warning
-// that names the place, what is found, and the slip that is most likely; no figure here changes what is computed.
+// Warns of input values that are valid but probably not intended, most often errors of unit or magnitude. Each warning
+// names the place, the value and the most likely error. The checks do not change the computation.
 //
-// Most rules compare figures of the scene with each other (a wave with the body, a ramp with the run), so that scenes
-// without dimensions pass; the others are bounds that no solid passes.
+// Most rules compare values of the scene with each other, such as the duration of a ramp with that of the run, so that
+// dimensionless scenes pass. The others are bounds that no real solid exceeds.
 #pragma once
 
 #include "lib/analysis/static_response.h"
@@ -11,18 +11,19 @@
 
 namespace orthodyn {
 
-// `config` is the resolved input of the scene. `is_timed`: whether the user gave its time span.
+// `config`: the resolved input of the scene. `is_timed`: false if the user gave no time span.
 Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed = true);
 
-// Of the linear static response to the scene's loads. Throws ConfigError where no solid could be so soft.
+// Checks the linear static response to the loads. Throws ConfigError if the displacement is so large that no solid
+// could be so soft.
 Warnings check_response(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics);
 
-// Unknowns up to which the response is computed for a warning's sake.
-constexpr int kMostUnknownsOfResponse = 30'000;
+// Largest number of unknowns for which the static response is computed if only these checks need it.
+constexpr int kMaxUnknownsOfResponse = 30'000;
 
-// Both kinds, of a scene that is built for them: for studies, whose points run elsewhere. None of a scene that cannot
-// be built, of which its points tell.
-Warnings slips_of(const Config& scene);
+// Builds the scene and returns the warnings of both functions. For studies, whose points run in other processes. Empty
+// if the scene cannot be built; the points then report the error.
+Warnings scene_warnings(const Config& scene);
 
 }  // namespace orthodyn

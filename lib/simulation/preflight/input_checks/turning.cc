@@ -1,21 +1,20 @@
-// Free bodies that turn: with lumped masses of wrong moments of inertia, with linear kinematics.
-#include <fmt/format.h>
+// Free rotation: lumped masses with wrong moments of inertia, and linear kinematics.
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
-#include "lib/simulation/preflight/input_checks/subject.h"
+#include "lib/simulation/preflight/input_checks/check_context.h"
 
 namespace orthodyn::input_checks {
 
 namespace {
 
-constexpr double kFarOff = 0.02;  // of a principal moment of inertia
-constexpr double kLinear = 0.1;   // rad, of linear kinematics
-constexpr double kTurns = 0.05;   // rad, in the run: smaller rotations are not visible
+constexpr double kFarOff = 0.02;  // relative error of a principal moment of inertia
+constexpr double kLinear = 0.1;   // largest rotation for linear kinematics, rad
+constexpr double kTurns = 0.05;   // rotation during the run, rad; smaller ones are invisible
 
-// Second moments of a mass about its centre, integral of rho x x^T, kg m^2.
+// Mass (kg), first moment (integral of rho x, kg m) and second moment (integral of rho x x^T, kg m^2).
 struct Moments {
   double mass = 0;
   Vec3 first = Vec3::Zero();
@@ -32,7 +31,8 @@ struct Moments {
   }
 };
 
-// Of tetrahedra with straight edges: the integral of x x^T over one is V/20 (sum x_i x_i^T + s s^T), s = sum x_i.
+// For a tetrahedron with straight edges, corners x_i and volume V, the integral of x x^T is
+// V/20 (sum x_i x_i^T + s s^T) with s = sum x_i.
 Moments of_the_body(const FemModel::Parts& parts) {
   const TetMesh& mesh = parts.mesh;
   Moments out;
@@ -58,11 +58,11 @@ Moments of_lumped_masses(const FemModel::Parts& parts) {
   return out;
 }
 
-// Angle (rad) by which spin at the start and loads turn the body in the run, as if it were rigid and its axes stayed.
-Vec3 angle_turned(const Subject& subject) {
-  const FemModel& model = *subject.built.model;
-  const Moments masses = of_lumped_masses(model.parts());  // as the momenta below
-  const State& start = subject.built.initial;
+// Rotation (rad) during the run by the initial spin and the loads, as if the body were rigid and its axes fixed.
+Vec3 angle_turned(const CheckContext& context) {
+  const FemModel& model = *context.built.model;
+  const Moments masses = of_lumped_masses(model.parts());  // lumped like the mass of the momenta below
+  const State& start = context.built.initial;
   const NodalExpansion nodal(model.parts(), start.t, start.q, start.v);
   const NodalVector arms = nodal.x.colwise() - Vec3(masses.first / masses.mass);
   const auto moment = [&](const NodalVector& f) {
@@ -72,13 +72,10 @@ Vec3 angle_turned(const Subject& subject) {
   };
   const NodalVector momenta = nodal.u_rate * model.parts().mass->nodal().asDiagonal();
   Vec3 momentum = moment(momenta), before = Vec3::Zero(), sum = before;
-  double last = subject.start();
-  visit_times(subject, [&](double t) {
+  double last = context.start();
+  visit_times(context, [&](double t) {
     const NodalExpansion then(model.parts(), t, start.q, start.v);
-    NodalVector f = NodalVector::Zero(3, arms.cols());
-    for (const auto& load : model.parts().loads)
-      if (load->energy_kind() != EnergyKind::gravitational) load->add_force(then.state(), f);
-    const Vec3 now = moment(f);
+    const Vec3 now = moment(load_forces(model.parts(), then));
     sum += (t - last) * momentum;
     momentum += (t - last) / 2 * (before + now);
     before = now;
@@ -87,8 +84,8 @@ Vec3 angle_turned(const Subject& subject) {
   return masses.inertia().ldlt().solve(sum);
 }
 
-void add_lumped_moments(const Subject& subject, const Vec3& angle, Warnings& out) {
-  const auto& parts = subject.built.model->parts();
+void add_lumped_moments(const CheckContext& context, const Vec3& angle, Warnings& out) {
+  const auto& parts = context.built.model->parts();
   const Eigen::SelfAdjointEigenSolver<Mat3> exact(of_the_body(parts).inertia());
   const Mat3 axes = exact.eigenvectors(), lumped = axes.transpose() * of_lumped_masses(parts).inertia() * axes;
   const Vec3 off = lumped.diagonal().cwiseQuotient(exact.eigenvalues()) - Vec3::Ones();
@@ -96,27 +93,25 @@ void add_lumped_moments(const Subject& subject, const Vec3& angle, Warnings& out
   Eigen::Index axis = 0;
   const double most = (about.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
   if (most <= kFarOff) return;
-  out.push_back(
-      fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
-                  "{:+.0f} % off about the axis {}: its rotation has a wrong energy there, or a wrong speed. Use "
-                  "mass: consistent, or more cells",
-                  subject.config.at("mesh").where(), 100 * off[axis],
-                  Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100 + 0.0)));
+  warn(out, context.config.at("mesh").where(),
+       "nothing holds the body, and lumped masses on so few elements give a moment of inertia {:+.0f} % off about the "
+       "axis {}: the energy or speed of its rotation is wrong. Use mass: consistent, or more cells",
+       100 * off[axis], Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100 + 0.0));
 }
 
 }  // namespace
 
-void check_turning(const Subject& subject, Warnings& out) {
-  const auto& parts = subject.built.model->parts();
-  if (!subject.moves() || !is_free(subject)) return;
-  const Vec3 angle = angle_turned(subject);
-  if (parts.mass->lumped()) add_lumped_moments(subject, angle, out);
-  const auto kinematics = value_at(subject.config, {"elasticity", "kinematics"});
+void check_turning(const CheckContext& context, Warnings& out) {
+  const auto& parts = context.built.model->parts();
+  if (!context.is_timed_motion() || !is_free(context)) return;
+  const Vec3 angle = angle_turned(context);
+  if (parts.mass->lumped()) add_lumped_moments(context, angle, out);
+  const auto kinematics = value_at(context.config, {"elasticity", "kinematics"});
   if (kinematics && kinematics->text() == "linear" && angle.norm() > kLinear)
-    out.push_back(
-        fmt::format("{}: nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, where linear "
-                    "kinematics are for less than {} rad: it would swell. Take corotational",
-                    kinematics->where(), angle.norm(), subject.end(), kLinear));
+    warn(out, kinematics->where(),
+         "nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, but linear kinematics are limited "
+         "to {} rad: the body would swell. Use corotational",
+         angle.norm(), context.end(), kLinear);
 }
 
 }  // namespace orthodyn::input_checks

@@ -1,4 +1,4 @@
-// Arrays of numbers that the page holds as text: see blocks.py.
+// Decodes the arrays that blocks.py embeds in the page as text.
 
 interface About {
   kind: "u32" | "f32" | "linear" | "half";
@@ -19,7 +19,7 @@ for (let bits = 0; bits < 65536; ++bits) {
 
 export const hasBlock = (name: string): boolean => document.getElementById(name) !== null;
 
-// Rows of `components` numbers, one after the other.
+// Decodes a block of real numbers. The components of a row are adjacent. Throws if the block holds integers.
 export async function floats(name: string): Promise<Float32Array> {
   const { about, bytes } = await unpacked(name);
   switch (about.kind) {
@@ -38,6 +38,7 @@ export async function floats(name: string): Promise<Float32Array> {
   }
 }
 
+// Decodes a block of unsigned integers, laid out as in floats().
 export async function integers(name: string): Promise<Uint32Array> {
   const { about, bytes } = await unpacked(name);
   const planes = new Uint32Array(bytes), n = planes.length / about.components, out = new Uint32Array(planes.length);
@@ -46,6 +47,7 @@ export async function integers(name: string): Promise<Uint32Array> {
   return out;
 }
 
+// Reorders planes (all values of a component, then those of the next) into rows, and decodes each value.
 function rows(planes: Float32Array | Uint16Array, components: number, value: (x: number, component: number) => number) {
   const n = planes.length / components, out = new Float32Array(planes.length);
   for (let i = 0; i < components; ++i)
@@ -55,7 +57,7 @@ function rows(planes: Float32Array | Uint16Array, components: number, value: (x:
 
 async function unpacked(name: string): Promise<{ about: About; bytes: ArrayBuffer }> {
   const named = document.getElementById(name), same = named?.dataset["same"];
-  const element = same === undefined ? named : document.getElementById(same); // an array stands only once
+  const element = same === undefined ? named : document.getElementById(same); // equal arrays are stored once
   if (!element) throw new Error(`the page has no block ${name}`);
   const text = atob(element.textContent ?? ""), packed = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);

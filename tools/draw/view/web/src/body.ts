@@ -1,4 +1,4 @@
-// A result as it is drawn: its surface at one frame, edges, strokes, marks, and the section of a clip plane.
+// Draws one frame of a result: surface, edges, material axes, supports and loads, and the section by a clip plane.
 import * as THREE from "three";
 import { lines, paint, type Paint } from "./material";
 import type { Quantity } from "./description";
@@ -7,33 +7,33 @@ import { plainCorners } from "./nodal";
 import { Section, type Cut, type Plane } from "./section";
 
 export interface Look {
-  scale: number; // of displacements
+  scale: number; // displacement scale factor
   edges: "none" | "shape" | "mesh";
-  strokes: number; // the material axis; 0: none
-  marks: boolean;
-  rest: boolean; // the outline of the rest shape
+  strokes: number; // material axis to show, 1 to 3; 0: none
+  marks: boolean; // show held nodes and loads
+  rest: boolean; // show the outline of the undeformed body
 }
 
 export interface Hit {
   value: number;
-  distance: number; // m, from the eye
-  node: number; // the nearest corner's number in the file
-  cell: number; // in the file
+  distance: number; // from the camera (m)
+  node: number; // number, in the file, of the nearest corner of the triangle or tetrahedron
+  cell: number; // number of the cell in the file
   point: THREE.Vector3;
 }
 
-const SWING = "swing"; // signed shapes of modes: lines where they are zero
+const SWING = "swing"; // field of signed mode shapes, which are drawn with nodal lines
 const HELD = 0xd1622b, LOAD = 0x8e44ad;
-const LIFT = 3e-3; // of the body's extent: strokes above the surface
-const MOST_ARROWS = 40; // more hide the body
-const ARROW = 0.09; // of the body's extent: that of the largest load
+const LIFT = 3e-3; // distance of strokes above the surface, relative to the body's extent
+const MOST_ARROWS = 40; // more would hide the body
+const ARROW = 0.09; // length of the arrow of the largest load, relative to the body's extent
 
 export class Body {
   readonly group = new THREE.Group();
-  readonly extent: number; // m
+  readonly extent: number; // largest edge of the bounding box at rest (m)
   readonly paint: Paint = paint();
   private readonly capPaint: Paint = paint();
-  private readonly positions: Float32Array; // of nodes
+  private readonly positions: Float32Array; // displaced nodes, x y z each
   private readonly corner: { position: Float32Array; normal: Float32Array; value: Float32Array; plain: Float32Array };
   private readonly normals: Float32Array;
   private readonly surface = new THREE.BufferGeometry();
@@ -42,9 +42,9 @@ export class Body {
   private readonly creases: THREE.LineSegments;
   private readonly outline: THREE.LineSegments;
   private readonly strokes: THREE.LineSegments | null;
-  private readonly held: THREE.Points; // single ones
+  private readonly held: THREE.Points; // held nodes that belong to no held face
   private readonly heldNodes: number[];
-  private readonly heldEdges: Uint32Array; // around held faces
+  private readonly heldEdges: Uint32Array; // outline of the held faces, as pairs of nodes
   private readonly heldOutline: THREE.LineSegments;
   private readonly arrows: THREE.LineSegments;
   private readonly section = new Section();
@@ -52,7 +52,7 @@ export class Body {
   private plane: Plane | null = null;
   private values: Float32Array = new Float32Array(0);
   private onNodes = true;
-  private lined: Float32Array | null = null; // the values whose nodal lines are drawn
+  private lined: Float32Array | null = null; // values for which nodal lines were found last; null: none yet
 
   constructor(readonly result: Result) {
     const { mesh } = result, corners = mesh.faces.length;
@@ -74,8 +74,8 @@ export class Body {
     this.strokes = most ? segments(2 * most, lines(0x101214)) : null;
     this.held = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: HELD, size: 5, sizeAttenuation: false }));
     [this.heldEdges, this.heldNodes] = outlined(mesh, result.marks.held);
-    this.heldOutline = segments(this.heldEdges.length, Object.assign(lines(HELD, 0.95), { depthTest: false })); // after what is opaque
-    this.heldOutline.renderOrder = 1; // over the edges of the shape
+    this.heldOutline = segments(this.heldEdges.length, Object.assign(lines(HELD, 0.95), { depthTest: false })); // drawn after opaque objects
+    this.heldOutline.renderOrder = 1; // drawn over the creases
     this.arrows = segments(6 * this.arrowNodes().length, lines(LOAD, 0.8));
     this.extent = extentOf(mesh.rest);
     const body = new THREE.Mesh(this.surface, this.paint);
@@ -87,7 +87,7 @@ export class Body {
     fillPairs(this.outline, mesh.creases, mesh.rest);
   }
 
-  // The same colours on the surface and on the section.
+  // Sets the colour map and its range, for the surface and the section alike.
   setColours(map: THREE.Texture, size: number, quantity: Quantity, low: number, high: number, nan: THREE.Color): void {
     for (const material of [this.paint, this.capPaint])
       Object.assign(material.uniforms, {
@@ -96,8 +96,8 @@ export class Body {
       });
   }
 
-  // Positions, and numbers of nodes or cells, of one frame.
-  // Without values, as of a field that the result has not, it is grey.
+  // Shows one frame. `values` has one number per node or cell; null (the result lacks the field) draws the body grey.
+  // A null displacement draws the body at rest.
   update(displacement: Float32Array | null, values: Float32Array | null, quantity: Quantity | null, look: Look,
     plane: Plane | null): void {
     const { mesh } = this.result;
@@ -123,6 +123,7 @@ export class Body {
     if (look.marks) this.fillMarks();
   }
 
+  // Cuts the body along the plane; null: no cut. Hollow bodies get no section.
   setPlane(plane: Plane | null): void {
     this.plane = plane;
     const { tets, tetCell } = this.result.mesh;
@@ -140,7 +141,7 @@ export class Body {
     geometry.setDrawRange(0, 3 * count);
   }
 
-  // What a ray meets first of what is not cut off.
+  // The nearest intersection of the ray with the visible surface or section; null if there is none.
   pick(ray: THREE.Ray): Hit | null {
     const { mesh } = this.result, { position, value } = this.corner;
     const onSurface = nearest(ray, position, value, mesh.faces.length / 3, this.plane);
@@ -157,14 +158,14 @@ export class Body {
     };
   }
 
-  // What holds the body at all frames, about: with displacements enlarged, the box grows as they do.
+  // Approximate bounding box over all frames, with displacements multiplied by `scale`.
   box(scale: number): THREE.Box3 {
     const rest = new THREE.Box3().setFromArray(this.result.mesh.rest), [low, high] = this.result.about.reach;
     const moved = new THREE.Box3(new THREE.Vector3().fromArray(low), new THREE.Vector3().fromArray(high));
     return new THREE.Box3(rest.min.clone().lerp(moved.min, scale), rest.max.clone().lerp(moved.max, scale)).union(rest);
   }
 
-  // What holds it now.
+  // Bounding box of the frame shown.
   boxNow(): THREE.Box3 {
     return new THREE.Box3().setFromArray(this.positions);
   }
@@ -238,7 +239,7 @@ export class Body {
     return at(1).sub(at(0)).cross(at(2).sub(at(0))).normalize();
   }
 
-  // Loaded nodes that have an arrow: evenly thinned out where they are many.
+  // Indices of the loaded nodes that get an arrow: every n-th one, at most MOST_ARROWS.
   private arrowNodes(): number[] {
     const { loaded } = this.result.marks, step = Math.ceil(loaded.length / MOST_ARROWS);
     return Array.from(loaded.keys()).filter((k) => k % step === 0);
@@ -264,8 +265,9 @@ export class Body {
   }
 }
 
-// The edges around held faces, in pairs, and the held nodes that are in none. A face is held if its corners are, and those
-// of a face beside it, about in its plane: where two clamped edges meet there is a face between them that is held by chance.
+// The outline of the held faces as pairs of nodes, and the held nodes that belong to no held face. A face counts as held if
+// all its corners are held and an adjacent, nearly coplanar face is held too. The second condition excludes the single face
+// in a corner between two clamped edges.
 function outlined({ faces, rest }: Mesh, held: Uint32Array): [Uint32Array, number[]] {
   const isHeld = new Set(held), beside = new Map<string, number[]>(), edge = (a: number, b: number) => `${Math.min(a, b)} ${Math.max(a, b)}`;
   const corners = (f: number) => [0, 1, 2].map((k) => faces[3 * f + k] as number);
@@ -288,7 +290,7 @@ function outlined({ faces, rest }: Mesh, held: Uint32Array): [Uint32Array, numbe
   return [Uint32Array.from(rim), [...held].filter((node) => !covered.has(node))];
 }
 
-// Three segments: a shaft that ends at the tip, and two sides of its head.
+// Appends the three segments of an arrow: a shaft that ends at the tip, and the two sides of its head.
 function arrow(tip: THREE.Vector3, along: THREE.Vector3, out: number[]): void {
   const tail = tip.clone().sub(along), length = along.length();
   const across = new THREE.Vector3(0, 0, 1).cross(along);
@@ -330,7 +332,8 @@ interface Met {
   point: THREE.Vector3;
 }
 
-// The first triangle that a ray meets on the side of the plane that is kept (Moeller & Trumbore 1997).
+// The nearest triangle that the ray hits on the kept side of the plane (Moeller & Trumbore 1997); null if there is none.
+// A null plane keeps everything.
 function nearest(ray: THREE.Ray, p: Float32Array, values: Float32Array, count: number, plane: Plane | null): Met | null {
   let best: Met | null = null;
   const { origin: o, direction: d } = ray;

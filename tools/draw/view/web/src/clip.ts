@@ -1,4 +1,4 @@
-// The clip plane: across an axis, or facing the eye as it was when that was chosen.
+// The controls of the clip plane. The plane is normal to an axis, or to the line of sight at the time of the choice.
 import * as THREE from "three";
 import { button, element, labelled, select } from "./dom";
 import type { Plane } from "./section";
@@ -9,9 +9,9 @@ const CHOICES: Record<string, [text: string, normal: Plane["normal"] | "eye" | n
 
 export interface Clipped {
   choice: string;
-  normal: Plane["normal"] | null;
-  part: number; // of the way through the bodies
-  flipped: boolean;
+  normal: Plane["normal"] | null; // null: no clipping
+  part: number; // position of the plane within the bounding box, 0 to 1
+  flipped: boolean; // remove the other side
 }
 
 export class Clip {
@@ -38,7 +38,7 @@ export class Clip {
     made.id = "clip";
     made.value = this.at.choice;
     enable();
-    const note = isHollow ? [element("p", { class: "hint" }, "hollow: what is inside is shown with --volume")] : [];
+    const note = isHollow ? [element("p", { class: "hint" }, "hollow: use --volume to include the interior")] : [];
     this.node = element("div", {}, labelled("clip plane", made, place, side), ...note);
   }
 
@@ -46,7 +46,7 @@ export class Clip {
     return this.at;
   }
 
-  // Through what is in the box.
+  // The clip plane through a bounding box; null if clipping is off.
   plane(box: THREE.Box3): Plane | null {
     const { normal, part, flipped } = this.at;
     if (!normal) return null;

@@ -1,4 +1,4 @@
-// Curves of a table over time, with a cursor at the time shown, as SVG.
+// Plots the columns of a table over time as SVG, with a cursor at the time shown.
 import { floats } from "./blocks";
 import { element, svg } from "./dom";
 import { round, scaled } from "./units";
@@ -25,12 +25,12 @@ export class Curves {
     private readonly seek: (time: number) => void,
   ) {}
 
-  // The tables that any result has.
+  // The names of the tables that at least one result has.
   tables(): string[] {
     return [...new Set(this.results.flatMap((r) => r.about.curves.map((c) => c.table)))];
   }
 
-  // One chart for each unit.
+  // Plots a table, with one chart per unit.
   async show(table: string): Promise<void> {
     const lines = new Map<string, Line[]>();
     for (const [k, result] of this.results.entries())
@@ -112,7 +112,7 @@ function path(line: Line, x: (t: number) => number, y: (v: number) => number): s
   return text;
 }
 
-// Round numbers between two, about as many as asked for.
+// About `count` evenly spaced round numbers from `low` to `high`.
 export function ticks(low: number, high: number, count: number): number[] {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough || 1));
   const step = power * ([1, 2, 2.5, 5].find((m) => m >= 0.7 * (rough / power)) ?? 10), out: number[] = [];

@@ -1,26 +1,26 @@
-// What the page says about its results, as collect.py writes it.
+// The description of the results on the page. collect.py and page.py write it.
 
 export interface Field {
   name: string;
   on: "nodes" | "cells";
-  steady: boolean; // only its first frame is there
+  steady: boolean; // constant in time: only the first frame is stored
   components: number;
 }
 
 export interface Quantity {
   key: string;
-  name: string; // as --color of `draw` takes it
+  name: string; // as in the option --color of `draw`
   field: string;
-  kind: number | "magnitude" | "von_mises"; // a component, or what is made of all
+  kind: number | "magnitude" | "von_mises"; // index of a component, or an invariant of all components
   label: string;
   unit: string;
-  low: number; // of the colours at first
+  low: number; // default colour range
   high: number;
-  least: number | null; // of all values; null where none is finite
-  most: number | null;
-  neutral: number; // of the undeformed body
-  diverging: boolean;
-  categories: boolean;
+  least: number | null; // smallest finite value of all frames; null if there is none
+  most: number | null; // largest one
+  neutral: number; // value in the undeformed body
+  diverging: boolean; // diverging colour map
+  categories: boolean; // values are labels: one colour per integer
 }
 
 export interface Curve {
@@ -32,21 +32,21 @@ export interface Curve {
 
 export interface ResultDescription {
   name: string;
-  group: string; // under which it is offered; "" for none
-  facts: string[]; // lines about it
-  shape: boolean; // displacements are shapes of modes, whose size means nothing
+  group: string; // heading in the list of results; "": none
+  facts: string[]; // lines of text about the result
+  shape: boolean; // displacements are mode shapes of arbitrary size
   static: boolean; // times are load factors
-  labels: string[] | null; // of frames that are points of a study or shapes, in place of times
-  centre: [number, number, number]; // m, that positions are relative to
-  reach: [number[], number[]]; // smallest and largest coordinates over all frames
+  labels: string[] | null; // of study points or mode shapes, shown instead of times; null: show times
+  centre: [number, number, number]; // origin of the stored positions (m)
+  reach: [number[], number[]]; // smallest and largest coordinates over all frames, relative to `centre` (m)
   times: number[];
-  cells: number; // of the whole mesh
-  volume: boolean; // nodes and cells inside are there, too
+  cells: number; // number of elements of the whole mesh
+  volume: boolean; // interior nodes and cells are included
   fields: Field[];
   quantities: Quantity[];
-  strokes: number[]; // the material axes that there are strokes of
+  strokes: number[]; // material axes that can be shown, 1 to 3
   curves: Curve[];
-  setup: { held: number; loaded: number };
+  setup: { held: number; loaded: number }; // numbers of nodes
   notes: {
     status?: string;
     warnings?: string[];
@@ -54,14 +54,14 @@ export interface ResultDescription {
 }
 
 export interface Start {
-  panes: number[]; // the results that are shown first: one, or two beside each other
+  panes: number[]; // indices of the results shown at the start: one, or two side by side
   time?: number;
   color?: string;
-  range?: [number, number]; // of the colours
-  scale?: number;
-  rest?: boolean; // the rest shape too
-  swing?: boolean; // frames are shapes of modes, each of which swings
-  still?: boolean; // a picture: no controls
+  range?: [number, number]; // colour range
+  scale?: number; // displacement scale factor
+  rest?: boolean; // show the undeformed body too
+  swing?: boolean; // frames are mode shapes: "play" makes the shown one oscillate
+  still?: boolean; // page for a picture, without controls
 }
 
 export interface Description {

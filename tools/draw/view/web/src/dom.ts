@@ -1,4 +1,4 @@
-// Elements with attributes and children.
+// Creates HTML and SVG elements with attributes and children.
 type Child = Node | string;
 
 export function element<K extends keyof HTMLElementTagNameMap>(
@@ -21,7 +21,7 @@ export function svg(name: string, attributes: Record<string, string | number> = 
 
 let labels = 0;
 
-// A control with its name before it.
+// A row with a label, a control, and further elements after the control.
 export function labelled(text: string, control: HTMLElement, ...after: Child[]): HTMLElement {
   control.id ||= `control-${++labels}`;
   return element("div", { class: "row" }, element("label", { for: control.id }, text), control, ...after);
@@ -39,7 +39,7 @@ export function button(text: string, title: string, press: () => void): HTMLButt
   return made;
 }
 
-// A box to tick, with its name after it.
+// A check box followed by its label.
 export function tick(text: string, checked: boolean, change: (on: boolean) => void, id = ""): HTMLElement {
   const box = element("input", { type: "checkbox", ...(id && { id }) });
   box.checked = checked;

@@ -1,4 +1,4 @@
-// The colour bar, with a range that can be changed.
+// The colour bar, whose range the user can edit.
 import { button, element } from "./dom";
 import { round, scaled } from "./units";
 import { ticks } from "./curves";
@@ -8,8 +8,10 @@ import type { Quantity } from "./description";
 export class Legend {
   readonly node = element("div", { class: "legend" });
 
+  // `change` receives the new colour range; null: the default one.
   constructor(private readonly change: (range: [number, number] | null) => void) {}
 
+  // [low, high] is the colour range shown. `all` is the range of all values; null if none is finite.
   show(quantity: Quantity, map: ColourMap, [low, high]: [number, number], all: [number, number] | null): void {
     const size = scaled(quantity.unit, Math.max(Math.abs(low), Math.abs(high)));
     const unit = size.unit && size.unit !== "1" ? `, ${size.unit}` : "";
@@ -34,7 +36,7 @@ export class Legend {
       });
       return input;
     });
-    const whole = button("↺", "The range at first: without the few values that dwarf the others", () => this.change(null));
+    const whole = button("↺", "Default range, without outliers", () => this.change(null));
     const range = element("div", { class: "range" }, ends[0] as Node, "to", ends[1] as Node, whole);
     this.node.replaceChildren(title, bar, marks, range);
     if (!all || (all[0] >= low - 1e-3 * (high - low) && all[1] <= high + 1e-3 * (high - low))) return;

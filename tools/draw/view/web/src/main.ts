@@ -1,19 +1,19 @@
-// Which results of the page are shown, and the view of them: see description.ts for what the page holds.
+// Entry point: lets the user choose results of the page and shows them in a View. description.ts describes the page's data.
 import { ColorManagement } from "three";
 import { element } from "./dom";
 import { Result } from "./result";
 import { View, type Kept } from "./view";
 import { readDescription, type Description } from "./description";
 
-ColorManagement.enabled = false; // colours as they are given
+ColorManagement.enabled = false; // use RGB values unchanged
 
 const NONE = -1;
 
 class Page {
   private panes: number[];
   private view: View | null = null;
-  private turn = 0; // of show()
-  private readonly results = new Map<number, Promise<Result>>(); // that are shown
+  private turn = 0; // number of calls of show()
+  private readonly results = new Map<number, Promise<Result>>(); // results shown, by index
 
   constructor(
     private readonly about: Description,
@@ -22,11 +22,11 @@ class Page {
     this.panes = about.start.panes;
   }
 
-  // The view of what is chosen. Of several choices at a time the last one is shown.
+  // Shows the chosen results. If the choice changes while they load, only the latest choice is shown.
   async show(): Promise<View> {
     const turn = ++this.turn, { panes } = this, results = await Promise.all(panes.map((k) => this.result(k)));
     if (turn !== this.turn) return window.orthodynView;
-    for (const k of this.results.keys()) if (!panes.includes(k)) this.results.delete(k); // their frames take room
+    for (const k of this.results.keys()) if (!panes.includes(k)) this.results.delete(k); // frees the memory of their frames
     const kept: Kept | null = this.view?.end() ?? null;
     this.root.replaceChildren();
     const view = new View(this.about, results, this.names(panes), this.root, kept);
@@ -41,7 +41,7 @@ class Page {
     return known;
   }
 
-  // A name where there is no choice, else what may be chosen, and in the last place also nothing.
+  // One heading per pane: a name if there is nothing to choose, else a list. The second list also offers "nothing".
   private names(panes: number[]): HTMLElement[] {
     const { results } = this.about;
     if (results.length === panes.length || this.about.start.still)
@@ -72,13 +72,13 @@ class Page {
     const [first, second] = this.panes;
     this.panes = pane === 0 ? [result, ...(second === undefined ? [] : [second])] : [first as number, ...(result === NONE ? [] : [result])];
     shown(this.show().then((view) => {
-      document.querySelectorAll<HTMLSelectElement>(".names select")[pane]?.focus(); // a new one, where the old one was
+      document.querySelectorAll<HTMLSelectElement>(".names select")[pane]?.focus(); // the list was created anew: restore the focus
       return view;
     }));
   }
 }
 
-// For scripts and tests, and with a word where something fails.
+// Makes the view available to scripts and tests as window.orthodynView. Shows a message on the page if the view fails.
 function shown(view: Promise<View>): void {
   window.orthodynView = view;
   view.catch((error: unknown) => {

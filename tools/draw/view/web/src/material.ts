@@ -1,9 +1,9 @@
-// How faces and lines are painted: colours by a number at each corner, a light beside the eye.
+// Materials for faces and lines. Faces are coloured by a value at each corner and lit from beside the camera.
 import * as THREE from "three";
 
 export interface ColourMap {
   colours: number[][]; // RGB, 0 to 255
-  categories: boolean; // one colour for each whole number
+  categories: boolean; // one colour per integer
 }
 
 const vertexShader = `

@@ -1,12 +1,12 @@
-// Where nodal lines of a shape are drawn.
+// Finds the faces on which nodal lines of a mode shape are drawn.
 
-const FAINT = 0.02; // of the largest value, as draw/modes.py has it
+const FAINT = 0.02; // relative to the largest value; as in draw/modes.py
 
-// 1 for each corner of a face without a nodal line: not one of its corners is beside values of both signs. Values are those
-// of nodes. Parts of the surface that have one sign and nowhere FAINT of the largest value do not count: they arise from
-// round-off, and from the mesh where the body is held.
+// Marks the corners of faces without a nodal line by 1, others by 0. `values` has one value per node. A face has a nodal line
+// if, at one of its corners, the faces that share this corner have values of both signs. Connected regions of one sign whose
+// values all stay below FAINT times the largest value are ignored: they come from round-off, or from the mesh near supports.
 export function plainCorners(faces: Uint32Array, values: Float32Array): Float32Array {
-  const isFaint = faintNodes(faces, values), signs = new Uint8Array(values.length); // beside a node: 1 positive, 2 negative
+  const isFaint = faintNodes(faces, values), signs = new Uint8Array(values.length); // around a node: 1 positive, 2 negative
   for (let corner = 0; corner < faces.length; corner += 3) {
     const nodes = faces.subarray(corner, corner + 3);
     const found = nodes.reduce((all, node) => all | (isFaint(node) ? 0 : sign(values[node] as number)), 0);

@@ -1,16 +1,16 @@
-// The time shown, and its going on: in true time, or slower or faster.
+// The time shown, and its playback at, below or above true speed.
 const SPEEDS = [10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4, 1e-5];
-const SECONDS = 6; // that the whole takes, about, if nothing is said
+const SECONDS = 6; // approximate duration of playback at the default speed
 
 export class Player {
   playing = false;
-  speed: number; // seconds of the scene in a second; of load factors, their span in SECONDS
+  speed: number; // simulated seconds per second of playback; for load factors, load factor per second
   private index = 0;
   private began = { clock: 0, time: 0 };
 
   constructor(
     readonly times: number[], // ascending
-    readonly isTimed: boolean,
+    readonly isTimed: boolean, // false: times are load factors or indices of frames
     private readonly show: (time: number) => Promise<void>,
     private readonly changed: () => void,
   ) {
@@ -55,6 +55,7 @@ export class Player {
     await this.show(this.time);
   }
 
+  // Shows the frame nearest to `time`.
   async goToTime(time: number): Promise<void> {
     let best = 0;
     this.times.forEach((t, k) => {
@@ -78,7 +79,7 @@ export class Player {
       await this.show(this.time);
     }
     if (this.index === this.times.length - 1) {
-      if (time < this.last + 0.7 * this.speed) requestAnimationFrame(() => void this.advance()); // a rest at the end
+      if (time < this.last + 0.7 * this.speed) requestAnimationFrame(() => void this.advance()); // pause at the end
       else await this.again();
       return;
     }

@@ -1,31 +1,31 @@
-// One result: its mesh, and the fields of its frames, which are unpacked when they are asked for.
+// One result: its mesh, and the fields of its frames, which are decoded on demand.
 import { floats, hasBlock, integers } from "./blocks";
 import type { Quantity, ResultDescription } from "./description";
 
 const CACHED_BYTES = 400e6;
 
 export interface Mesh {
-  rest: Float32Array; // positions, about the centre
-  number: Uint32Array; // of each node in the file
+  rest: Float32Array; // positions of nodes at rest, relative to the result's centre (m)
+  number: Uint32Array; // for each node its number in the file
   faces: Uint32Array; // three nodes each, counter-clockwise from outside
-  normals: Uint32Array; // of each corner of a face the number of its normal
-  cell: Uint32Array; // of each face
-  cellNumber: Uint32Array; // in the file
-  edges: Uint32Array;
-  creases: Uint32Array;
-  tets: Uint32Array | null; // four nodes each, where what is inside is there
-  tetCell: Uint32Array | null;
+  normals: Uint32Array; // for each corner of a face the index of its normal
+  cell: Uint32Array; // for each face the index of its cell
+  cellNumber: Uint32Array; // for each cell its number in the file
+  edges: Uint32Array; // edges of the surface mesh, two nodes each
+  creases: Uint32Array; // sharp edges of the shape, two nodes each
+  tets: Uint32Array | null; // four nodes each; null if the interior is not included
+  tetCell: Uint32Array | null; // for each tetrahedron the index of its cell; null like `tets`
 }
 
 export interface Marks {
   held: Uint32Array; // nodes
-  loaded: Uint32Array;
-  loads: Float32Array; // N, three each
+  loaded: Uint32Array; // nodes
+  loads: Float32Array; // forces on the loaded nodes (N), three components each
 }
 
 export interface Strokes {
-  face: Uint32Array;
-  ends: Float32Array; // barycentric coordinates of both ends, six each
+  face: Uint32Array; // for each stroke the index of its face
+  ends: Float32Array; // barycentric coordinates of both ends in that face, six per stroke
 }
 
 export class Result {
@@ -36,7 +36,7 @@ export class Result {
     readonly key: string,
     readonly about: ResultDescription,
     readonly mesh: Mesh,
-    readonly strokes: Map<number, Strokes>, // by axis
+    readonly strokes: Map<number, Strokes>, // by material axis, 1 to 3
     readonly marks: Marks,
   ) {}
 
@@ -54,7 +54,7 @@ export class Result {
     return new Result(key, about, { rest, number, faces, normals, cell, cellNumber, edges, creases, tets, tetCell }, strokes, marks);
   }
 
-  // The frame nearest to a time.
+  // The index of the frame nearest to a time.
   frameAt(time: number): number {
     const times = this.about.times;
     let best = 0;
@@ -64,24 +64,26 @@ export class Result {
     return best;
   }
 
+  // Displacements (m), three per node; null if the result has none.
   async displacement(frame: number): Promise<Float32Array | null> {
     return this.about.fields.some((f) => f.name === "displacement") ? this.field("displacement", frame) : null;
   }
 
-  // One number for each node or cell.
+  // The quantity's values, one per node or cell. Throws if the result lacks the field.
   async values(quantity: Quantity, frame: number): Promise<Float32Array> {
     const field = this.about.fields.find((f) => f.name === quantity.field);
     if (!field) throw new Error(`no field ${quantity.field}`);
     return scalars(await this.field(field.name, field.steady ? 0 : frame), field.components, quantity.kind);
   }
 
-  // Unpacks what a later frame needs.
+  // Decodes a later frame in advance.
   prepare(quantity: Quantity, frame: number): void {
     if (frame >= this.about.times.length) return;
     void this.displacement(frame);
     void this.values(quantity, frame);
   }
 
+  // null if the result lacks the quantity.
   quantity(key: string): Quantity | null {
     return this.about.quantities.find((q) => q.key === key) ?? null;
   }

@@ -1,15 +1,15 @@
-// The cut of a plane through tetrahedra, as triangles with the numbers interpolated within them.
+// The section of a tetrahedral mesh by a plane, as triangles with interpolated values.
 
 export interface Plane {
-  normal: [number, number, number]; // what is on this side is cut off
-  offset: number; // normal . x = offset on the plane
+  normal: [number, number, number]; // points to the removed side
+  offset: number; // normal . x = offset for x in the plane
 }
 
 export interface Cut {
-  positions: Float32Array; // nine numbers a triangle
-  values: Float32Array; // three a triangle
-  tet: Uint32Array; // one a triangle
-  count: number; // triangles
+  positions: Float32Array; // nine per triangle
+  values: Float32Array; // three per triangle
+  tet: Uint32Array; // for each triangle the index of its tetrahedron
+  count: number; // number of triangles; the arrays may be longer
 }
 
 export class Section {
@@ -20,7 +20,8 @@ export class Section {
   private distance = new Float32Array(0);
   private normal: Plane["normal"] = [0, 0, 1];
 
-  // `values` are of nodes, or of the tetrahedra's cells.
+  // `values` has one value per cell, with cellOf[t] the cell of tetrahedron t; or, if cellOf is null, one per node.
+  // The next call overwrites the arrays of the returned Cut.
   cut(x: Float32Array, tets: Uint32Array, values: Float32Array, cellOf: Uint32Array | null, plane: Plane): Cut {
     this.count = 0;
     const [a, b, c] = plane.normal, n = x.length / 3;
@@ -65,7 +66,7 @@ export class Section {
     this.tet[this.count++] = tet;
   }
 
-  // Whether the triangle is counter-clockwise as seen from what is cut off.
+  // Whether the triangle is counter-clockwise when seen from the removed side.
   private facesAlong(at: number): boolean {
     const p = this.positions, side = (k: number, i: number) => (p[at + 3 * k + i] as number) - (p[at + i] as number);
     const [a, b, c] = this.normal;
@@ -75,7 +76,7 @@ export class Section {
     );
   }
 
-  // Swaps the last two corners.
+  // Swaps the last two corners of the triangle under construction.
   private turnRound(): void {
     for (const [array, size] of [[this.positions, 3], [this.values, 1]] as const) {
       const second = (3 * this.count + 1) * size, third = second + size;
@@ -101,5 +102,5 @@ export class Section {
 
 interface Edge {
   from: number; // a node below the plane
-  to: number; // and one above
+  to: number; // a node above the plane
 }

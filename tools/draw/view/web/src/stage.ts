@@ -1,19 +1,19 @@
-// The canvas: one or two bodies beside each other, seen by one camera.
+// The canvas: shows one or more bodies in adjacent panes, all with the same camera.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Body, Hit } from "./body";
 import type { Plane } from "./section";
 import { Triad } from "./triad";
 
-const AZIMUTH = -60, ELEVATION = 20; // degrees, as `draw` has them
-const FIELD_OF_VIEW = 20;
-const NARROW = 640; // pixels: below each other in place of beside
+const AZIMUTH = -60, ELEVATION = 20; // degrees; the same defaults as in `draw`
+const FIELD_OF_VIEW = 20; // degrees
+const NARROW = 640; // pixels: in a narrower window panes are stacked
 
 export interface Pick extends Hit {
   pane: number;
 }
 
-// Whether pictures are drawn by the processor: then without what costs most, smooth edges and fine pixels.
+// Whether WebGL runs on the CPU. Antialiasing and high resolution, which cost most, are then turned off.
 const isSoftware = ((): boolean => {
   const gl = document.createElement("canvas").getContext("webgl2"), known = gl?.getExtension("WEBGL_debug_renderer_info");
   const name = gl && known ? String(gl.getParameter(known.UNMASKED_RENDERER_WEBGL)) : "";
@@ -22,8 +22,8 @@ const isSoftware = ((): boolean => {
 })();
 
 interface Rectangle {
-  x: number; // pixels from the left, and from the top
-  y: number;
+  x: number; // pixels from the left
+  y: number; // pixels from the top
   width: number;
   height: number;
 }
@@ -37,11 +37,11 @@ export class Stage {
   private readonly clip = new THREE.Plane();
   private readonly triad = new Triad();
   private readonly resizing = new ResizeObserver(() => this.resize());
-  private pending = 0; // the number of the frame that is asked for; 0: none
+  private pending = 0; // identifier of the requested animation frame; 0: none
   private isOver = false;
-  private isMoved = false; // by the user
-  private scale = 1; // of displacements
-  private direction: [number, number] = [AZIMUTH, ELEVATION];
+  private isMoved = false; // whether the user has moved the camera
+  private scale = 1; // displacement scale factor
+  private direction: [number, number] = [AZIMUTH, ELEVATION]; // degrees
 
   constructor(
     private readonly holder: HTMLElement,
@@ -67,7 +67,7 @@ export class Stage {
     this.resize();
   }
 
-  // From a direction, in degrees about z, with all in sight.
+  // Views all bodies from a direction: azimuth about z and elevation, in degrees.
   look(azimuth: number, elevation: number): void {
     this.direction = [azimuth, elevation];
     this.isMoved = false;
@@ -82,17 +82,18 @@ export class Stage {
     this.draw();
   }
 
-  // Where the eye is: azimuth and elevation, in degrees; and the unit vector to it.
+  // Azimuth and elevation of the camera, in degrees.
   eye(): [number, number] {
     const [x, y, z] = this.toward();
     return [THREE.MathUtils.radToDeg(Math.atan2(y, x)), THREE.MathUtils.radToDeg(Math.asin(Math.min(Math.max(z, -1), 1)))];
   }
+  // Unit vector from the target to the camera.
   toward(): [number, number, number] {
     const { x, y, z } = this.camera.position.clone().sub(this.orbit.target).normalize();
     return [x, y, z];
   }
 
-  // Gives back what the graphics card holds for it.
+  // Stops drawing and releases the resources of the graphics card.
   end(): void {
     this.isOver = true;
     cancelAnimationFrame(this.pending);
@@ -102,13 +103,13 @@ export class Stage {
     this.renderer.forceContextLoss();
   }
 
-  // For displacements that are enlarged.
+  // Fits the bodies into view, with displacements multiplied by `scale`.
   fit(scale: number): void {
     this.scale = scale;
     this.look(...this.direction);
   }
 
-  // How far off the eye must be for the box to fit.
+  // The distance (m) from camera to target at which the box fits into a pane.
   private distanceFor(box: THREE.Box3, toward: THREE.Vector3): number {
     const target = box.getCenter(new THREE.Vector3()), right = new THREE.Vector3().crossVectors(this.camera.up, toward).normalize();
     const up = new THREE.Vector3().crossVectors(toward, right), slope = Math.tan(THREE.MathUtils.degToRad(FIELD_OF_VIEW / 2));
@@ -134,6 +135,7 @@ export class Stage {
     this.renderer.localClippingEnabled = plane !== null;
   }
 
+  // Requests a redraw at the next animation frame.
   draw(): void {
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => this.drawNow());
@@ -156,7 +158,7 @@ export class Stage {
     this.triad.draw(this.renderer, toEye, this.camera.up, this.holder.clientWidth, this.holder.clientHeight);
   }
 
-  // What is under a place on the page.
+  // The point of a body at a place on the page, in CSS pixels; null if no body is there.
   pick(clientX: number, clientY: number): Pick | null {
     const bounds = this.canvas.getBoundingClientRect(), x = clientX - bounds.left, y = clientY - bounds.top;
     const index = this.panes().findIndex((p) => x >= p.x && x < p.x + p.width && y >= p.y && y < p.y + p.height);
@@ -170,7 +172,7 @@ export class Stage {
     return hit && { ...hit, pane: index };
   }
 
-  // Where a point of a body is on the page; for tests.
+  // The place on the page, in CSS pixels, of a point in a pane; for tests.
   place(point: THREE.Vector3, pane = 0): { x: number; y: number } {
     const p = this.panes()[pane] as Rectangle, bounds = this.canvas.getBoundingClientRect();
     this.setAspect(p);
@@ -197,7 +199,7 @@ export class Stage {
     );
   }
 
-  // All stays in sight until the user has chosen what to see.
+  // Keeps all bodies in view unless the user has moved the camera.
   private resize(): void {
     this.renderer.setSize(this.holder.clientWidth, this.holder.clientHeight);
     if (!this.isMoved) this.look(...this.direction);

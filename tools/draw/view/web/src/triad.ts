@@ -1,4 +1,4 @@
-// The directions of x, y and z, in a corner of the picture.
+// Draws the directions of x, y and z in a corner of the picture.
 import * as THREE from "three";
 
 const PIXELS = 84, REACH = 1.45;
@@ -18,7 +18,7 @@ export class Triad {
     }
   }
 
-  // As the camera looks, right and above in a picture of this size.
+  // Draws the axes as seen by the main camera, in the upper right corner of a picture of this size (pixels).
   draw(renderer: THREE.WebGLRenderer, towardEye: THREE.Vector3, up: THREE.Vector3, width: number, height: number): void {
     this.camera.position.copy(towardEye).multiplyScalar(5);
     this.camera.up.copy(up);

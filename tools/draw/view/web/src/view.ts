@@ -1,4 +1,4 @@
-// The view of one or two results: see description.ts for what the page holds.
+// Shows one or more results with all controls. description.ts describes the page's data.
 import * as THREE from "three";
 import { Body, type Look } from "./body";
 import { Clip, type Clipped } from "./clip";
@@ -9,7 +9,7 @@ import { colourTexture, type ColourMap } from "./material";
 import { Player } from "./player";
 import { Result } from "./result";
 import { Stage } from "./stage";
-import { figure, round, scaled, withUnit } from "./units";
+import { formatted, round, scaled, withUnit } from "./units";
 import type { Description, Quantity } from "./description";
 import type { Plane } from "./section";
 
@@ -18,20 +18,20 @@ const VIEWS: Record<string, [string, number, number]> = {
 };
 const KEYS = "space: play; ← →: a frame back, on; Home, End: first, last; 1 – 4: views; e: edges; g: grain; c: clip plane; " +
   "drag: turn; right button or two fingers: move; wheel: nearer";
-const SWING_SECONDS = 2; // of a shape, to and fro
-const AHEAD = 3; // frames that are unpacked before they are shown, while time goes on
+const SWING_SECONDS = 2; // period of an oscillating mode shape
+const AHEAD = 3; // number of frames decoded in advance during playback
 const SCALES = [0.1, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e4, 1e5];
 
-// What stays as it is when other results are shown.
+// Settings that are kept when other results are chosen.
 export interface Kept {
   time: number;
   quantity: Quantity;
-  range: [number, number] | null;
+  range: [number, number] | null; // colour range; null: the default one
   look: Look;
   clip: Clipped;
-  direction: [number, number];
-  speed: number;
-  table: string | null;
+  direction: [number, number]; // azimuth and elevation, in degrees
+  speed: number; // see Player
+  table: string | null; // name of the plotted table; null: none
 }
 
 export class View {
@@ -46,21 +46,21 @@ export class View {
   private readonly play: HTMLButtonElement;
   private look: Look = { scale: 1, edges: "shape", strokes: 0, marks: true, rest: false };
   private quantity: Quantity;
-  private range: [number, number] | null = null;
+  private range: [number, number] | null = null; // colour range; null: the default one
   private readonly clip: Clip;
-  private readonly labels: HTMLElement[]; // of the frames shown, where they have some
+  private readonly labels: HTMLElement[]; // one text above each result: see showLabels()
   private readonly listening = new AbortController();
   private table: string | null = null;
   private tableChosen = element("select");
-  private turn = 0; // of refresh()
-  private swing = 1; // of the enlarged shape, while it swings
+  private turn = 0; // number of calls of refresh()
+  private swing = 1; // momentary factor of an oscillating mode shape, -1 to 1
   private swinging = false;
   private pointer: { x: number; y: number } | null = null;
 
   constructor(
     private readonly about: Description,
     private readonly results: Result[],
-    names: HTMLElement[], // one above each result
+    names: HTMLElement[], // headings, one per result
     root: HTMLElement,
     private readonly before: Kept | null,
   ) {
@@ -103,18 +103,19 @@ export class View {
     addEventListener("keydown", (e) => this.key(e), { signal: this.listening.signal });
   }
 
-  // To be called before another view takes its place; what that shall keep.
+  // Stops this view. Call before another view replaces it; returns the settings for that view.
   end(): Kept {
     const { quantity, range, look, table } = this, speed = this.player.speed, clip = this.clip.clipped;
     const kept = { time: this.player.time, quantity, range, look, clip, direction: this.stage.eye(), speed, table };
     if (this.player.playing) this.player.toggle();
     this.swinging = false;
-    ++this.turn; // what is being unpacked is shown nowhere
+    ++this.turn; // discards frames that are still being decoded
     this.listening.abort();
     this.stage.end();
     return kept;
   }
 
+  // Shows the first frame. Mode shapes start to oscillate unless the user prefers reduced motion.
   async begin(): Promise<void> {
     this.colour();
     await this.player.goToTime(this.before?.time ?? this.about.start.time ?? this.player.first);
@@ -130,7 +131,7 @@ export class View {
     if (swing && !still && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.togglePlay();
   }
 
-  // Time goes on, or a shape swings.
+  // Starts or stops playback or, for mode shapes, the oscillation.
   private togglePlay(): void {
     if (!this.about.start.swing) return this.player.toggle();
     this.swinging = !this.swinging;
@@ -144,11 +145,12 @@ export class View {
     this.showTime();
   }
 
-  // For scripts and tests: what a value is at a place on the page, and where a node is.
+  // For scripts and tests: the text about the value at a place on the page, in CSS pixels; "" if no body is there.
   at(x: number, y: number): string {
     this.pointed({ x, y });
     return this.under.textContent ?? "";
   }
+  // For scripts and tests: the place on the page of a point in a pane.
   place(x: number, y: number, z: number, pane = 0): { x: number; y: number } {
     return this.stage.place(new THREE.Vector3(x, y, z), pane);
   }
@@ -168,6 +170,7 @@ export class View {
     return this.results.every((r) => !r.about.static && !r.about.labels);
   }
 
+  // The quantity with this name or key, else the first one of the field with this name; null if there is none.
   private named(name: string | undefined): Quantity | null {
     const all = this.results.flatMap((r) => r.about.quantities);
     return all.find((q) => q.name === name || q.key === name) ?? all.find((q) => q.field === name) ?? null;
@@ -179,18 +182,18 @@ export class View {
     for (const body of this.bodies) {
       const frame = body.result.frameAt(this.player.time), own = body.result.quantity(quantity.key);
       const [moved, values] = await Promise.all([body.result.displacement(frame), own && body.result.values(own, frame)]);
-      if (turn !== this.turn) return; // another frame was asked for meanwhile
+      if (turn !== this.turn) return; // a newer call has started
       if (this.player.playing && own)
         for (let ahead = 1; ahead <= AHEAD; ++ahead) body.result.prepare(own, frame + ahead);
       body.update(moved, values, own, look, plane);
     }
     this.stage.setPlane(plane);
     this.pointed(this.pointer);
-    if (this.player.playing || this.swinging) this.stage.drawNow(); // within the frame of the clock that asked for it
+    if (this.player.playing || this.swinging) this.stage.drawNow(); // in the same animation frame
     else this.stage.draw();
   }
 
-  // The colours of the quantity and its range, on all bodies and in the legend.
+  // Applies the colour map and range of the quantity to all bodies and the legend.
   private colour(): void {
     const map = this.map(), texture = colourTexture(map), [low, high] = this.range ?? this.wholeRange();
     const [r = 230, g = 0, b = 126] = this.about.maps.nan, nan = new THREE.Color(r / 255, g / 255, b / 255);
@@ -199,26 +202,27 @@ export class View {
     for (const body of this.bodies) body.setColours(texture, map.colours.length, this.quantity, low, high, nan);
   }
 
-  // Of all results that have the quantity: they are to be compared.
+  // Default colour range: the union over all results that have the quantity, so that their colours can be compared.
   private wholeRange(): [number, number] {
     const same = this.results.map((r) => r.quantity(this.quantity.key)).filter((q): q is Quantity => q !== null);
     return [Math.min(...same.map((q) => q.low)), Math.max(...same.map((q) => q.high))];
   }
 
+  // Range of all values of the results shown; null if none is finite.
   private allValues(): [number, number] | null {
     const same = this.results.map((r) => r.quantity(this.quantity.key)).filter((q): q is Quantity => q !== null);
     const least = same.flatMap((q) => q.least ?? []), most = same.flatMap((q) => q.most ?? []);
     return least.length ? [Math.min(...least), Math.max(...most)] : null;
   }
 
-  // "deflections enlarged 200 times"; "" where they are not, and of shapes, whose size means nothing.
+  // For example "deflections enlarged 200 times". "" if the scale is 1, and for mode shapes, whose size is arbitrary.
   private enlarged(result: Result): string {
     const { scale } = this.look;
     if (scale === 1 || result.about.shape) return "";
     return scale > 1 ? `deflections enlarged ${round(scale)} times` : `deflections × ${round(scale)}`;
   }
 
-  // Of the frames that have some, how far deflections are enlarged, and what a result has not.
+  // Shows above each result: the label of the frame, if any; the displacement scale; whether the quantity is missing.
   private showLabels(): void {
     this.results.forEach((r, k) => {
       const lacks = r.quantity(this.quantity.key) ? "" : `has no ${this.quantity.label}`;
@@ -241,7 +245,7 @@ export class View {
     const labels = this.results.map((r) => r.about.labels?.[r.frameAt(player.time)] ?? "");
     this.showLabels();
     const isStatic = this.results.some((r) => r.about.static);
-    const said = isStatic ? `load factor ${figure(player.time, 4)}` : `t = ${figure(player.time / size.factor, 4)} ${size.unit}`;
+    const said = isStatic ? `load factor ${formatted(player.time, 4)}` : `t = ${formatted(player.time / size.factor, 4)} ${size.unit}`;
     const text = labels[0] || said, count = `${player.frame + 1} of ${player.times.length}`;
     this.clock.textContent = labels.some((l) => l) ? count : `${said}  (${count})`;
     this.slider.value = String(player.frame);
@@ -260,7 +264,7 @@ export class View {
       this.under.textContent = `${of?.about.name} has no ${label}`;
       return;
     }
-    const digits = this.quantity.neutral ? 6 : 3; // a volume ratio differs from 1 by little
+    const digits = this.quantity.neutral ? 6 : 3; // values such as volume ratios differ little from 1
     const number = this.quantity.categories ? String(Math.round(hit.value)) : withUnit(hit.value, unit, digits);
     this.under.textContent = `${label}: ${number} · node ${hit.node} · element ${hit.cell}`;
   }
@@ -362,7 +366,7 @@ export class View {
     chosen.dispatchEvent(new Event("change"));
   }
 
-  // The canvas as PNG, with a word below where deflections are enlarged.
+  // The canvas as a PNG data URL, with a note at the bottom if deflections are scaled.
   picture(): string {
     this.stage.drawNow();
     const { canvas } = this.stage, said = this.results.map((r) => this.enlarged(r)).find((text) => text) ?? "";

@@ -1,0 +1,24 @@
+// The highest order of CVODE's and IDA's BDF.
+#pragma once
+
+#include <optional>
+
+#include "integrators/sundials/sundials_options.h"
+
+namespace orthodyn::sundials {
+
+// Returns `given` if it has a value. Otherwise returns 5 if the motion is well damped (damping_ratio.h), else 2.
+// `start`: initial state.
+int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
+              const Scales& scales);
+
+// Spec with the keys of a BDF method. T is derived from Options and has a member `std::optional<int> max_order`.
+template <class T>
+Spec<T> bdf_spec() {
+  return Options::spec_for<T>().key(
+      "max_order", &T::max_order,
+      "Highest order; default 5 where the motion is well damped, by a ratio above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
+      {.range = {1, 5}});
+}
+
+}  // namespace orthodyn::sundials

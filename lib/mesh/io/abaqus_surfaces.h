@@ -1,0 +1,12 @@
+// Surfaces of an Abaqus mesh: *SURFACE, the faces that *DLOAD loads, and sets of shell and plane elements.
+#pragma once
+
+#include "lib/mesh/io/abaqus_lookup.h"
+
+namespace orthodyn {
+
+// Adds the surfaces to the draft. Throws ConfigError for a face that its element does not have and for a *SURFACE
+// without elements.
+void add_abaqus_surfaces(AbaqusFile& file, AbaqusLookup& lookup);
+
+}  // namespace orthodyn

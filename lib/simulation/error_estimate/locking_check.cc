@@ -1,0 +1,114 @@
+#include "lib/simulation/error_estimate/locking_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/core/symmetric_eigen.h"
+#include "lib/fem/element_mesh.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kFlat = 6;           // width of cells over thickness: above it, they are flat
+constexpr double kBends = 0.3;        // share of the squared strains that varies within cells
+constexpr double kVolumetric = 0.95;  // least cosine between the stiffest strain and a volume change
+
+// Ratios of the largest to the smallest eigenvalue of the stiffness above which elements of this order lock.
+double stiff_volume(int order) { return order == 1 ? 30 : 300; }
+double stiff_direction(int order) { return order == 1 ? 1000 : 5000; }
+
+struct Contrast {
+  double ratio;
+  bool volumetric;
+};
+
+// Ratio of the extreme eigenvalues of the stiffness in Mandel's notation, in which stress times strain is work.
+Contrast contrast(const Mat6& stiffness) {
+  Vec6 scale;
+  scale << 1, 1, 1, std::numbers::sqrt2, std::numbers::sqrt2, std::numbers::sqrt2;
+  const auto pairs = symmetric_eigenpairs<6>(Mat6(scale.asDiagonal() * stiffness * scale.asDiagonal()));
+  const double along_volume = std::abs(pairs.vectors.col(5).head<3>().sum()) / std::sqrt(3.0);
+  return {pairs.values[5] / pairs.values[0], along_volume > kVolumetric};
+}
+
+// Longest edge over smallest height.
+double flatness(const TetMesh& mesh, const Tet& tet) {
+  const auto at = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[k])]; };
+  double longest = 0, largest = 0;  // longest edge, twice the largest face area
+  for (const auto& [i, j] : kTetEdges) longest = std::max(longest, (at(i) - at(j)).norm());
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
+    largest = std::max(largest, (at(b) - at(a)).cross(at(c) - at(a)).norm());
+  }
+  return longest * largest / std::abs(signed_volume6(mesh, tet));
+}
+
+struct Bending {
+  double share = 0;     // part of the squared strains that varies within cells; 0 for linear cells
+  double flatness = 0;  // mean, weighted by squared strains
+};
+
+Bending bending(const FemModel& model, const State& state) {
+  const FemModel::Parts& parts = model.parts();
+  const NodalExpansion nodal(parts, state.t, state.q, Vector::Zero(state.q.size()));
+  double all = 0, varying = 0, flat = 0;
+  for (const auto& term : parts.elastic) {
+    const auto strains = term->strains(nodal.state());
+    const Eigen::Index points = term->num_points();
+    for (int k = 0; k < term->size(); ++k) {
+      const auto own = strains.middleCols(points * k, points);
+      const Vec6 mean = own.rowwise().mean();
+      const double volume =
+          std::abs(signed_volume6(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]));
+      const double square = volume * own.squaredNorm();
+      all += square;
+      varying += volume * (own.colwise() - mean).squaredNorm();
+      flat += square * flatness(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]);
+    }
+  }
+  if (!(all > 0)) return {};
+  return {varying / all, flat / all};
+}
+
+std::string flat_cells(const FemModel& model, const State& state) {
+  const auto [share, flatness] = bending(model, state);
+  const int order = model.parts().mesh.order();
+  if (!(flatness > kFlat) || (order == 2 && share < kBends)) return "";
+  return fmt::format(
+      "cells are {:.0f} times as wide as thick{}: all {} tetrahedra are then too stiff (locking), and the true error "
+      "may be several times the estimate. Use narrower cells{}, or check with orthodyn converge",
+      flatness, order == 1 ? ", and where the body bends" : ", and the body bends", order == 1 ? "linear" : "quadratic",
+      order == 1 ? " or mesh.order: 2" : "");
+}
+
+std::string stiff_law(const FemModel& model, bool by_finer_elements) {
+  const int order = model.parts().mesh.order();
+  for (const auto& term : model.parts().elastic) {
+    const auto [ratio, volumetric] = contrast(term->stiffness());
+    if (by_finer_elements && volumetric) continue;
+    if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
+    return fmt::format(
+        "region '{}' is {:.0f} times as stiff {} as in its softest shear: all {} tetrahedra are then too stiff "
+        "(locking), and the true error may be {} the estimate. {}, or check with orthodyn converge",
+        term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
+        order == 1 ? "linear" : "quadratic", by_finer_elements ? "two or three times" : "many times",
+        order == 1   ? "Use mesh.order: 2"
+        : volumetric ? "Use a smaller nu if this one is not intended, finer cells"
+                     : "Use finer cells");
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string locking_risk(const FemModel& model, const State& state, bool by_finer_elements) {
+  std::string found = stiff_law(model, by_finer_elements);
+  if (found.empty() && !by_finer_elements) found = flat_cells(model, state);
+  return found;
+}
+
+}  // namespace orthodyn

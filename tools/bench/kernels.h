@@ -1,0 +1,10 @@
+// Registers the benchmarks.
+#pragma once
+
+namespace orthodyn::bench {
+
+void register_memory();  // memory bandwidth, a lower bound on the time of a force
+void register_kernels(bool large);
+void register_growth();  // scaling with the mesh size, from 3,000 elements to a million
+
+}  // namespace orthodyn::bench

@@ -1,0 +1,206 @@
+#include "tools/orthodyn/list_chapters.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "lib/config/registry.h"
+#include "lib/fem/fem_model.h"
+#include "lib/fem/nodal_fields.h"
+#include "lib/linear/solver.h"
+#include "lib/material/presets.h"
+#include "lib/mesh/io/mesh_format.h"
+#include "lib/scene/quantity.h"
+#include "lib/scene/scene.h"
+#include "lib/study/compare/comparison.h"
+#include "lib/study/stability/stability.h"
+#include "lib/study/sweep/sweep.h"
+
+namespace orthodyn {
+
+namespace {
+
+void print_key(const Key& key) {
+  std::string facts = type_text(key.schema);
+  if (!key.unit.empty()) facts += ", " + key.unit;
+  if (const auto range = range_text(key.range); !range.empty()) facts += ", " + range;
+  facts += key.required ? ", required" : key.fallback.empty() ? "" : ", default " + key.fallback;
+  fmt::print("    {:<22} {} ({})\n", key.name, key.sentence, facts);
+}
+
+void print_entry(const std::string& name, const std::string& sentence, const std::vector<Key>& keys) {
+  fmt::print("  {}\n    {}\n", name, sentence);
+  for (const auto& key : keys) print_key(key);
+}
+
+template <class Base>
+void list_registry() {
+  for (const auto& [name, entry] : Registry<Base>::entries()) {
+    std::string sentence = entry.sentence;
+    for (const auto& [fact, text] : entry.facts) sentence += fmt::format("\n    {}: {}", fact, text);
+    print_entry(name, sentence, entry.keys);
+  }
+}
+
+void list_meshes() {
+  list_registry<MeshSource>();
+  fmt::print("  endings of mesh files: {}\n", known_mesh_endings());
+}
+
+void print_strength(const Strength& strength) {
+  const auto three = [](const Vec3& pascal) {
+    const Vec3 v = 1e-6 * pascal;
+    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v[0], v[1], v[2]);
+  };
+  fmt::print("    strengths along 1, 2, 3: tension {}; compression {}; shear 12, 23, 31: {} MPa\n",
+             three(strength.tension), three(strength.compression), three(strength.shear));
+}
+
+void list_presets() {
+  for (const auto& p : presets()) {
+    const auto& c = p.constants;
+    const auto reverse = [&](double nu, int i, int j) { return nu * c.young[j] / c.young[i]; };
+    constexpr double kGiga = 1e9;
+    fmt::print("  {}\n    {}. {}\n", p.name, p.source, p.axes);
+    fmt::print("    density {}\n",
+               p.density ? fmt::format("{} kg/m^3", *p.density) : "must be given: not in the source");
+    fmt::print("    E1 {:.4g}, E2 {:.4g}, E3 {:.4g}, G12 {:.4g}, G23 {:.4g}, G13 {:.4g} GPa\n", c.young[0] / kGiga,
+               c.young[1] / kGiga, c.young[2] / kGiga, c.g12 / kGiga, c.g23 / kGiga, c.g13 / kGiga);
+    fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
+               reverse(c.nu12, 0, 1), reverse(c.nu23, 1, 2), reverse(c.nu13, 0, 2));
+    if (p.strength) print_strength(*p.strength);
+  }
+}
+
+void list_solvers() {
+  for (const auto& [name, kind] : solver_registry())
+    print_entry(name, kind.sentence + (kind.unavailable.empty() ? "" : " Not available: " + kind.unavailable + "."),
+                {});
+}
+
+void list_terms() {
+  print_entry("elasticity", "Corotational or linear elasticity of every region.", Elasticity::spec().keys());
+  print_entry("damping", "Rayleigh damping; the stiffness part is objective.", Damping::spec().keys());
+  print_entry("gravity", "Uniform gravity: three numbers, m/s^2.", {});
+  print_entry("loads", "Dead tractions and total forces on surfaces, with a factor in time.", Load::spec().keys());
+  print_entry("clamps", "Nodes that do not move; eliminated from the system.", Clamp::spec().keys());
+  print_entry("clamps.<n>.box", "Nodes in a box.", BoxSelection::spec().keys());
+  print_entry("clamps.<n>.plane", "Nodes on a plane.", PlaneSelection::spec().keys());
+  print_entry("motions", "Nodes whose motion is prescribed; eliminated from the system.", SupportMotion::spec().keys());
+  print_entry("motions.<n>.rotation", "A rotation of any size about an axis.", Rotation::spec().keys());
+  list_registry<TermChoice>();
+  print_entry("initial", "The state at the start.", Initial::spec().keys());
+  print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());
+}
+
+void list_scene() {
+  print_entry("scene", "The keys of a scene.", Scene::spec().keys());
+  print_entry("time", "Time span.", TimeSpan::spec().keys());
+  print_entry("regions.<name>", "Material, axes and kinematics of a region.", Region::spec().keys());
+  print_entry("output", "What is written.", Output::spec().keys());
+  print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
+}
+
+void list_expectations() {
+  print_entry("expect.<n>", "A quantity that `orthodyn verify` checks.", Expectation::spec().keys());
+}
+
+void list_statics() {
+  print_entry("statics", "How equilibria are computed, for analysis: static and start: equilibrium.",
+              Statics::spec().keys());
+  list_registry<EquilibriumChoice>();
+}
+
+void list_buckling() {
+  print_entry("buckling", "Computation of critical load factors, for analysis: buckling.", Buckling::spec().keys());
+}
+
+void list_events() {
+  print_entry("events.<n>", "A value of a quantity whose crossing is logged or ends the run.",
+              EventSpec::spec().keys());
+}
+
+void list_comparison() {
+  print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
+  print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
+  print_entry("limits", "Limits of each point of a comparison.", Limits::spec().keys());
+  print_entry("reference", "The reference solution, against which errors are measured.",
+              ReferenceOptions::spec().keys());
+}
+
+void list_sweep() {
+  print_entry("sweep", "The keys of a sweep, for `orthodyn sweep`.", Sweep::spec().keys());
+  print_entry("scene", "The scene of a sweep, as a section.", SceneEntry::spec().keys());
+  print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
+  print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
+  print_entry("quantities.<name>", "A metric of every point: one of quantity, mode (or along), buckling, cost.",
+              WantedMetric::spec().keys());
+  print_entry("plots.<n>", "A plot of the report.", PlotSpec::spec().keys());
+  print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
+  print_entry("limits", "Limits of each point of a sweep.", Limits::spec().keys());
+}
+
+void list_stability() {
+  print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
+  print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
+  print_entry("limits", "Limits of each trial.", Limits::spec().keys());
+}
+
+void list_fields() {
+  const FemModel model{FemModel::Parts{}};
+  for (const auto& info : model.outputs()) {
+    if (info.location == Location::global) continue;
+    fmt::print("  {:<18} {} ({}, {} component{}, {})\n", info.name, info.sentence,
+               info.location == Location::node ? "per node" : "per cell", info.components,
+               info.components == 1 ? "" : "s", info.unit);
+  }
+}
+
+void list_quantities() {
+  const FemModel model{FemModel::Parts{}};
+  for (const auto& info : model.outputs())
+    if (info.location == Location::global)
+      fmt::print("  {:<22} {} ({} component{}, {})\n", info.name, info.sentence, info.components,
+                 info.components == 1 ? "" : "s", info.unit);
+  fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
+  fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
+  fmt::print(
+      "  reaction.SUPPORT       Force of a clamp or a moved support on the body, by its name (3 components, N).\n");
+  fmt::print(
+      "  torque.SUPPORT         Torque of that force about the centre of the support's nodes (3 components, N m).\n");
+  fmt::print("                         Both need output.reactions: true, unless `expect` names them.\n");
+  fmt::print("  [REGION.]FIELD.largest, .smallest\n");
+  fmt::print(
+      "                         Over the nodes of the body or a region; tensors with a component "
+      "(nodal_stress.xx.largest):\n");
+  for (const OutputInfo& info : region_fields())
+    fmt::print("                         {}{}\n", info.name,
+               info.component_names.empty() ? "" : fmt::format(" .{}", fmt::join(info.component_names, " .")));
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::function<void()>>>& list_chapters() {
+  static const std::vector<std::pair<std::string, std::function<void()>>> all = {
+      {"scene", list_scene},
+      {"materials", list_registry<Material>},
+      {"presets", list_presets},
+      {"meshes", list_meshes},
+      {"axes", list_registry<AxesSource>},
+      {"terms", list_terms},
+      {"factors", list_registry<TimeFunction>},
+      {"integrators", list_registry<IntegratorChoice>},
+      {"solvers", list_solvers},
+      {"statics", list_statics},
+      {"buckling", list_buckling},
+      {"events", list_events},
+      {"expect", list_expectations},
+      {"comparison", list_comparison},
+      {"sweep", list_sweep},
+      {"stability", list_stability},
+      {"fields", list_fields},
+      {"quantities", list_quantities},
+  };
+  return all;
+}
+
+}  // namespace orthodyn
