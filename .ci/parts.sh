@@ -78,8 +78,9 @@ configure_sanitizers() {
 }
 
 library_with_sanitizers() {
+  local targets=("${LIBRARY_TESTS[@]/#/orthodyn_}")
   configure_sanitizers -D ORTHODYN_NOT_SANITIZED="simulation;study;cli"
-  build ci/build --target "${LIBRARY_TESTS[@]/#/orthodyn_}"
+  build ci/build --target "${targets[@]/%/_tests}"
 }
 
 # Everything with sanitizers, but how accurate whole scenes are.
@@ -104,9 +105,11 @@ ranks() { nightly_tests '^ranks\.|^(simulation|study)\.nightly$'; }
 kills_and_faults() { nightly_tests '^(simulation|study|faults)\.nightly$'; }
 estimates() { nightly_tests '^problems\.nightly$'; }
 fuzz() { nightly_tests '^fuzz\.nightly$'; }
-browser() {
+accuracy() { nightly_tests '^contract\.nightly$'; }
+# All pictures and reports, in a browser, too.
+drawing() {
   ensure chromium chromium
-  nightly_tests '^draw\.(view_browser|stability|report_command)$'
+  ORTHODYN_LONG=1 nightly_tests '^draw\.'
 }
 
 # Every scene that is shown, at its full length.

@@ -2,8 +2,10 @@
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_commands.py  (Debian's numpy, matplotlib, PIL).
 """
+import os
 import subprocess
 import sys
+import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -42,6 +44,7 @@ class Commands(InAFolder):
         self.assertEqual(size, (800, 600))
         self.assertEqual(path, self.result / "pictures" / "frame_00002.png")
 
+    @unittest.skipUnless(os.environ.get("ORTHODYN_LONG"), "takes long; .ci/nightly runs it")
     def test_every_quantity_can_be_drawn_from_every_side(self):
         for k, color in enumerate(("displacement.x", "velocity", "region", "det_f", "stress.zz", "material_axis_1")):
             with self.subTest(color=color):

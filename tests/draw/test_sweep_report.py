@@ -3,8 +3,10 @@
 Run with  /usr/bin/python3 -m unittest tests/draw/test_sweep_report.py
 """
 import json
+import os
 import re
 import sys
+import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -51,6 +53,7 @@ class ThePlan(OfASweep):
         levels = {"angle": ANGLES, "nu": [0.1, 0.2], "mesh": ["coarse", "fine"]}
         self.assertEqual(self.roles(sweep(levels)), [("angle", "mesh", {"nu": 0.1}), ("angle", "mesh", {"nu": 0.2})])
 
+    @unittest.skipUnless(os.environ.get("ORTHODYN_LONG"), "takes long; .ci/nightly runs it")
     def test_the_page_says_what_it_leaves_out(self):
         levels = {"angle": ANGLES, "mesh": ["coarse", "fine"], "nu": [0.1, 0.2, 0.3], "k": [1.0, 2.0, 3.0, 4.0]}
         content = sweep(levels)

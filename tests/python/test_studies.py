@@ -54,7 +54,7 @@ class AStudy(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no column 'lowset'; there are point, nu, lowest"):
             study.plot("nu", "lowset")
         self.assertFalse(list(Path().glob(".sweep-*")))
-        with self.assertRaisesRegex(ValueError, "no point has a frame; name `frames: {}` in the sweep"):
+        with self.assertRaisesRegex(ValueError, "no point has a frame; .*frames: {}"):
             study.view()
 
     def test_that_kept_frames_has_a_view(self):
@@ -64,6 +64,7 @@ class AStudy(unittest.TestCase):
         self.assertIn("difference from the reference", Path(page.path).read_text())
         self.assertIn('href="view.html"', study.report.read_text())
 
+    @unittest.skipUnless(os.environ.get("ORTHODYN_LONG"), "takes long; .ci/nightly runs it")
     def test_of_a_scene_of_another_folder_finds_its_mesh(self):
         Path("there").mkdir()
         scenes = Path(__file__).resolve().parents[2] / "configs/scenes"

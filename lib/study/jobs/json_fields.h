@@ -202,6 +202,11 @@ class JsonFields {
     for (const auto& field : fields_)
       if (field.required || json.contains(field.key)) field.read(json.at(field.key), object);
   }
+  // As read(), but a missing key leaves the member as it is.
+  void read_present(const Json& json, T& object) const {
+    for (const auto& field : fields_)
+      if (json.contains(field.key)) field.read(json.at(field.key), object);
+  }
   T read(const Json& json) const {
     T object;
     read(json, object);

@@ -70,8 +70,10 @@ Json to_json(const EvaluationResult& result) {
 }
 
 EvaluationResult evaluation_from(const Json& json) {
-  EvaluationResult result = JsonValue<EvaluationResult>::from(json);
+  EvaluationResult result;
   result.failure = failure_from(json);
+  if (result.failure) json_fields<EvaluationResult>.read_present(json, result);  // a crash leaves its reason alone
+  else json_fields<EvaluationResult>.read(json, result);
   return result;
 }
 
