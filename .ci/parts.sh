@@ -73,6 +73,7 @@ assert program() == sys.argv[2], program()'
 # configure_sanitizers [CMAKE ARGUMENTS]: with the tests of the release build, which are not compiled again. Without MPI,
 # whose libraries leak at their end.
 configure_sanitizers() {
+  ninja -C build/release -t cleandead >/dev/null  # objects of sources that are gone would be linked, too
   configure ci asan -B build/ci/build -D ORTHODYN_GPL=ON -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT="$PWD/build/release" \
     -D ORTHODYN_PROCESSOR=native -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@"
 }
