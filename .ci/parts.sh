@@ -29,12 +29,13 @@ release() { tools/test; }
 # Sources that were changed, each by itself and without precompiled headers: does it include what it uses?
 compile_changed() {
   local sources
-  mapfile -t sources < <(changed_files | grep -E '^(lib|integrators|tools/orthodyn)/.*\.cc$' | shuf -n "${1:-30}")
+  mapfile -t sources < <(changed_files | grep -E '^(lib|integrators|tools/orthodyn)/.*\.cc$' | shuf -n "${1:-30}" |
+    sed "s|.*|$PWD/&^|")  # PATH^: the object of this source
   say "${#sources[@]} changed sources"
   if ((${#sources[@]} == 0)); then return; fi
   configure ci-dev dev -B build/ci/dev -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O0 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
     -D ORTHODYN_TESTS=OFF
-  logged build-ci-dev ninja -C build/ci/dev "${sources[@]/%/^}"
+  logged build-ci-dev ninja -C build/ci/dev "${sources[@]}"
 }
 
 # The release build as others see it: installed, found by find_package, linked, used.
