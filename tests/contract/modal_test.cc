@@ -167,7 +167,7 @@ std::string refusal(const SmallModel& model, const std::string& keys) {
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Modal, WantsToKnowWhichModesToKeep) {
-  EXPECT_TRUE(contains(refusal(chain(false), ""), "`modes`"));
+  EXPECT_TRUE(contains(refusal(chain(false), ""), "`modes`") && contains(refusal(chain(false), ""), "`below`"));
   EXPECT_TRUE(contains(refusal(chain(false), ", modes: 3, below: 1 Hz"), "remove one of the two"));
 }
 

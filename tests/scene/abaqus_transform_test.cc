@@ -80,7 +80,7 @@ TEST(AbaqusTransform, OfAPartTurnsWithItsInstance) {
     return scene_of_abaqus(folder.path("a.inp"), "a.inp").text;
   };
   EXPECT_CONTAINS(text("90"), "force: [3, 0, 0]");
-  EXPECT_CONTAINS(text("0"), "*TRANSFORM (line 12)");
+  EXPECT_CONTAINS(text("0"), "*CLOAD (line 22): *TRANSFORM (line 12)");
 }
 
 }  // namespace

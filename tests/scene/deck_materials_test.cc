@@ -82,7 +82,8 @@ TEST_F(DeckScene, MillimetresTonsAndSecondsAreConverted) {
   EXPECT_NEAR(stiffness(s)(0, 0), 210e9, 1e-3);
   EXPECT_NEAR(s.materials[0].second->density(), 7800, 1e-9);
   EXPECT_EQ(bounding_box(s.loaded->mesh).max, Vec3::Constant(0.001));
-  EXPECT_CONTAINS(refusal_of_scene(yaml(kIsotropic, ", units: mm_t_s, scale: 0.001")), "mesh.scale: ");
+  EXPECT_CONTAINS(refusal_of_scene(yaml(kIsotropic, ", units: mm_t_s, scale: 0.001")),
+                  "mesh.scale: cannot be combined with `units: mm_t_s`");
 }
 
 TEST_F(DeckScene, TheAxesOfASectionAreThoseOfItsOrientation) {

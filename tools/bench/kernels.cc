@@ -100,7 +100,7 @@ void analysis(benchmark::State& state, const BentBeam& beam) {
   count(state, beam);
 }
 
-// Builds the beam when its first benchmark runs, so that `--filter` costs only what it selects.
+// Builds the beam when its first benchmark runs: benchmarks that `--filter` leaves out build nothing.
 class LazyBeam {
  public:
   LazyBeam(Beam beam, int across) : beam_(std::move(beam)), across_(across) {}

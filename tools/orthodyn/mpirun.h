@@ -29,7 +29,7 @@ void let_ranks_share_processors(int ranks, int groups);
 // RunError if mpirun cannot be started.
 [[noreturn]] void exec_on_ranks(int ranks, const std::vector<std::string>& words);
 
-// The first line (up to ';' or a line break) of what a shell command prints; empty if the command fails.
+// First line of the output of a shell command, up to ';' or a line break; empty if the command fails.
 std::string first_output_line(const std::string& command);
 
 }  // namespace orthodyn

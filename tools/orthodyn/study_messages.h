@@ -46,7 +46,7 @@ class FailureSummary {
 // Says that `count` earlier failures at a limit of time or memory were kept, and that --retry repeats them.
 void print_kept_failures(std::size_t count);
 
-// Says that the study was interrupted and how to continue. `pieces`: what was computed: "points".
+// Prints that the study was interrupted and how to continue it. `pieces`: plural of its unit of work, such as "points".
 void print_interrupted(const char* pieces, const std::filesystem::path& folder);
 
 }  // namespace orthodyn

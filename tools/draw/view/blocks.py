@@ -1,6 +1,6 @@
 """Arrays as text in an HTML page: quantised, compressed by gzip, in base64.
 
-web/src/blocks.ts reads them. Numbers are little-endian. All values of a component precede those of the next (planes),
+The reader is web/src/blocks.ts. Numbers are little-endian. All values of a component precede those of the next (planes),
 which compresses better. Kinds:
   u32     unsigned integers
   f32     single precision
