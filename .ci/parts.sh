@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What is verified, each part a function. To be sourced in the project's root; .ci/run and .ci/nightly call them.
+# The parts of the verification, one function each, for .ci/run and .ci/nightly. To be sourced in the project's root.
 source tools/setup/steps.sh
 source tools/setup/packages.sh
 source tools/setup/build.sh
@@ -12,7 +12,7 @@ readonly LIBRARY_TESTS=(core config material element linear ode statics material
 # ensure COMMAND PACKAGE
 ensure() { if ! command -v "$1" >/dev/null; then install_packages "$2"; fi; }
 
-# Files that the commits of the last day have changed, for parts that are run only where they are touched.
+# Files changed by the commits of the last day. .ci/run uses them to choose parts.
 changed_files() {
   local base
   base=$(git rev-list -1 --before='1 day ago' HEAD 2>/dev/null) || true
@@ -26,7 +26,7 @@ format() {
 
 release() { tools/test; }
 
-# Sources that were changed, each by itself and without precompiled headers: does it include what it uses?
+# Compiles changed sources one by one, without precompiled headers: each must include what it uses.
 compile_changed() {
   local sources
   mapfile -t sources < <(changed_files | grep -E '^(lib|integrators|tools/orthodyn)/.*\.cc$' | shuf -n "${1:-30}" |
@@ -71,8 +71,8 @@ assert program() == sys.argv[2], program()'
     /usr/bin/python3 -c "$script" "$SCENE" "$PREFIX/bin/orthodyn"
 }
 
-# configure_sanitizers [CMAKE ARGUMENTS]: with the tests of the release build, which are not compiled again. Without MPI,
-# whose libraries leak at their end.
+# configure_sanitizers [CMAKE ARGUMENTS]: links the test objects of the release build, which are not compiled again. MPI is
+# off, because its libraries leak at exit.
 configure_sanitizers() {
   ninja -C build/release -t cleandead >/dev/null  # objects of sources that are gone would be linked, too
   configure ci asan -B build/ci/build -D ORTHODYN_GPL=ON -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT="$PWD/build/release" \
@@ -85,14 +85,14 @@ library_with_sanitizers() {
   build ci/build --target "${targets[@]/%/_tests}"
 }
 
-# Everything with sanitizers, but how accurate whole scenes are.
+# All tests with sanitizers, except tests/problems (accuracy of whole scenes).
 with_sanitizers() {
   configure_sanitizers -D ORTHODYN_NOT_SANITIZED=
   build ci/build
   UBSAN_OPTIONS=print_stacktrace=1 run_tests ci/build -E '^(schema|draw|shipped|include_rule|ranks)' --no-tests=error
 }
 
-# In the same folder: only what depends on the option is built again.
+# Uses the folder of the sanitizers' build, so that only files that depend on the option are compiled.
 without_gpl() {
   configure ci-without-gpl asan -B build/ci/build -D ORTHODYN_GPL=OFF -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT= \
     -D ORTHODYN_NOT_SANITIZED= -D ORTHODYN_PROCESSOR=native
@@ -120,7 +120,7 @@ shipped_scenes() { ORTHODYN_LONG=1 nightly_tests '^shipped$'; }
 # Every scene and the notebooks by the Python package.
 python_scenes() { ORTHODYN_LONG=1 nightly_tests '^python\.'; }
 
-# Each source by itself, as `dev` has it.
+# Compiles every source by itself.
 each_source() {
   configure dev dev -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O0
   build dev
