@@ -7,6 +7,7 @@
 //
 // First-order form, (I - gamma J) dy = (r_q, r_v):                 p = M r_v.
 // IDA, (dF/dy + cj dF/dy') dy = (b_q, b_v) with gamma = 1/cj:      r_q = gamma b_q, p = gamma b_v.
+// Here F = (q' - v, M v' - f).
 //
 // dq is computed from dv. Computing dv from dq would lose digits by cancellation if gamma is small.
 #pragma once
@@ -22,11 +23,12 @@ class ReducedSolve : public NewtonMatrix {
   ReducedSolve(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics)
       : NewtonMatrix(model, solver, tangent, statistics), work_(model.num_dofs()) {}
 
-  // Factors A. False if A is singular or indefinite; a smaller gamma may help.
+  // Factors A; call linearize() first. False if A is singular or indefinite; a smaller gamma may help.
   bool factor(double gamma) { return NewtonMatrix::factor({1, gamma, gamma * gamma}); }
 
-  // Solves as above with the gamma of the last factor(). SUNDIALS expects this gamma from a direct solver, and scales
-  // the corrections itself if gamma has changed since. r_q and dq may be the same vector; so may p and dv.
+  // Solves as above with the gamma of the last factor(), which must have returned true. SUNDIALS expects a direct
+  // solver to use this gamma, and scales the correction itself if gamma has changed since. r_q and dq may be the same
+  // vector; so may p and dv.
   void solve(const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv) {
     multiply_stiffness(r_q, work_);
     work_ = p - gamma() * work_;

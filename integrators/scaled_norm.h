@@ -26,7 +26,7 @@ class ScaledNorm {
     return root_mean(position_ * w_q * size, velocity_ * w_v * size, space_.size(x));
   }
 
-  // The root mean square of a vector x for which (q, v) = (w_q x, w_v x) has the norm `size`.
+  // The inverse: the root mean square of x if (w_q x, w_v x) has the norm `size`. w_q and w_v must not both be 0.
   double root_mean_square_at(double size, double w_q, double w_v) const {
     return size * std::sqrt(2.0) / std::hypot(position_ * w_q, velocity_ * w_v);
   }

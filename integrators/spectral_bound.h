@@ -15,8 +15,8 @@ class SpectralBound {
   explicit SpectralBound(const Model& model);
 
   // The bound, at least 0, for A with `values` on model.pattern(): in 1/s^2 for a stiffness, in 1/s for a damping
-  // matrix. The iteration starts from the Ritz vector of the last call, so it is cheap if A has changed little. Not
-  // thread-safe for this reason.
+  // matrix. The iteration starts from the Ritz vector of the last call plus a small random part, so it is cheap if A
+  // has changed little. Not thread-safe, because the Ritz vector is kept.
   double largest(const double* values);
 
  private:

@@ -15,17 +15,17 @@ namespace orthodyn {
 
 struct CostEstimate {
   double damping_ratio = 0;   // of the motion; 0 unless every region has stiffness-proportional damping
-  double explicit_steps = 0;  // of central differences at the critical step; infinite if that step is unknown
+  double explicit_steps = 0;  // steps of central differences at the critical step; infinite if it is unknown
   double phase = 0;           // estimated phase of the motion over the time span, rad
   double known_phase = 0;     // phase from a known frequency of the motion, rad; 0 if unknown
   double solve_cost = 0, factor_cost = 0;  // of one solve and of one factorisation of an implicit method
-  bool has_factor = true;                  // false with an iterative linear solver
+  bool has_factor = true;                  // false with an iterative linear solver; factor_cost is then its set-up
   bool smooth = true;                      // no contact
   bool driven = false;                     // loads or supports vary in time
 };
 
-// Uses the stiffness at task.initial for the whole run. `linear_solver`: one of SolverPaths::reduced. Throws
-// ConfigError if this solver does not accept the model's matrices.
+// Uses the stiffness at task.initial for the whole run. `linear_solver`: one of
+// linear_solver_names(SolverPaths::reduced). Throws ConfigError if this solver does not accept the model's matrices.
 CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
                            const SolverChoice& linear_solver);
 
@@ -37,8 +37,8 @@ struct MethodChoice {
 };
 
 // Chooses the method for a local error of rtol. Central differences are chosen if they cost less than an implicit
-// method and need fewer than `most_explicit_steps` steps. Otherwise damping ratio, rtol and the phase error of order 2
-// select the implicit method.
+// method and need fewer than `most_explicit_steps` steps. Otherwise the implicit method is chosen by the damping ratio,
+// rtol and the phase error of a method of order 2.
 MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_explicit_steps);
 
 // The largest share s <= 0.9 of the critical step h_c at which central differences are as accurate as other methods at

@@ -1,7 +1,7 @@
 // Anderson acceleration of an iteration x <- x + g(x) (Anderson 1965; Walker & Ni, SIAM J. Numer. Anal. 49, 2011). The
-// next iterate is a weighted mean of x_i + g(x_i) over the last iterates x_i, with the weights that minimise the norm
-// of that mean of the g(x_i). For a linear g it converges about as fast as GMRES. Not thread-safe, because it keeps
-// iterates.
+// next iterate is a weighted mean of x_i + g(x_i) over the last iterates x_i. The weights minimise the norm of the same
+// weighted mean of the g(x_i). For a linear g the iteration converges about as fast as GMRES. Not thread-safe, because
+// it keeps iterates.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace orthodyn {
 
 class Anderson {
  public:
-  // `depth`: number of earlier iterates used.
+  // `depth`: number of earlier iterates used, at least 1.
   Anderson(Eigen::Index size, int depth) : dx_(size, depth), dg_(size, depth), x_(size), g_(size) {}
 
   // Discards earlier iterates; call it for a new equation.

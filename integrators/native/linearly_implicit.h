@@ -1,6 +1,6 @@
 // Base of the linearly implicit methods, which need no Newton iteration. They solve linear systems with I - gamma J,
 // where gamma is in s and J is the Jacobian of y' = (v, M^-1 f). The matrix A = M + gamma D + gamma^2 K is factored at
-// the start of a step (reduced_solve.h).
+// the start of a step (reduced_solve.h) if gamma, K or D has changed.
 #pragma once
 
 #include "integrators/native/one_step.h"
@@ -10,8 +10,8 @@ namespace orthodyn {
 
 class LinearlyImplicit : public OneStep {
  public:
-  // K and D are kept for `tangent_steps` steps, or until a step fails. Throws ConfigError if the linear solver does not
-  // accept the model's matrices.
+  // K and D of a nonlinear model are kept for `tangent_steps` steps, or until a step fails. Throws ConfigError if the
+  // linear solver does not accept the model's matrices.
   LinearlyImplicit(const std::string& name, const Model& model, const LinearOptions& options, const Scales& scales,
                    int tangent_steps);
   std::size_t factor_bytes() const override { return solve_.factor_bytes(); }
@@ -22,11 +22,12 @@ class LinearlyImplicit : public OneStep {
   std::string solver_description() const override { return solve_.description(); }
   std::size_t method_bytes() const override;
 
-  // Factors A at the start of an attempt. False if A is singular or indefinite.
+  // Updates K, D and the factor of A if needed; call it at the start of attempt(). False if A is singular or
+  // indefinite.
   bool prepare(double gamma);
-  // Call it once q and v of next_ are known. Evaluates the force there, which the next step needs at its start. `a`:
-  // the method's own acceleration (m/s^2) for dense output, because M^-1 f would multiply the error of stiff modes by
-  // their stiffness.
+  // Evaluates the force at next_, for the start of the next step; call it once q and v of next_ are known. `a`: the
+  // method's own acceleration (m/s^2) for dense output, because M^-1 f would multiply the error of stiff modes by their
+  // stiffness.
   void finish(const ConstVectorRef& a);
 
   const Vector& force_now() const { return f_now_; }    // force at now()

@@ -7,14 +7,15 @@
 //
 // The error has two parts:
 //
-//   Free vibrations, caused by a start or by a jump of u or u' at a kink of the load. They start with the errors e_q of
-//   the position and e_v of the velocity. Without damping their amplitude is sqrt(|e_q|^2 + (M e_v)^T S (M e_v)),
-//   exactly. They decay like the lowest mode left out.
+//   Free vibrations, caused by the start or by a jump of u or u' at a kink of the load. They begin with the errors e_q
+//   of the position and e_v of the velocity. Without damping their amplitude is exactly
+//   sqrt(|e_q|^2 + (M e_v)^T S (M e_v)). They are assumed to decay like the lowest mode left out.
 //
-//   The lag of the response, |S (M u'' + D u')|: the next term of the expansion for slowly varying loads.
+//   The lag of the response, |S (M u'' + D u')|: the leading term of the error if the load varies slowly. It is counted
+//   in displacements only.
 //
-// The lag is not a bound if the load varies as fast as the modes left out (resonance). It is then at least as large as
-// u itself.
+// The lag is not a bound if the load varies as fast as a mode left out (resonance). In that mode the lag is then at
+// least as large as u.
 #pragma once
 
 #include "integrators/native/modal_load.h"
@@ -26,16 +27,17 @@ class ModalTruncation {
   // `basis` must outlive this object.
   explicit ModalTruncation(const ModalBasis& basis) : basis_(basis) {}
 
-  // Records a start from a state with modal coordinates `begin`. `load`: load of the first step.
+  // Records a start, or a restart at a kink. `begin`: modal coordinates of `from`. `load`: load of the next step.
   void start(const State& from, const ModalState& begin, const StepLoad& load);
 
   // Records one step.
   void step(const ModalState& begin, const ModalState& end, const StepLoad& load);
 
-  // Records the amplitudes with which the motion would continue from a state under the constant load at `theta`.
+  // Records the amplitudes that the whole motion would have after `state` if the load kept its value at `theta`, a
+  // fraction of the step.
   void record_motion(const ModalState& state, const StepLoad& load, double theta);
 
-  // Motion left out as a share of the largest displacement or velocity; 0 if nothing has moved.
+  // Largest amplitude left out / largest amplitude of the motion; 0 if nothing has moved.
   double displacement_share() const { return motion_ > 0 ? displacement_ / motion_ : 0; }
   double velocity_share() const { return speed_ > 0 ? velocity_ / speed_ : 0; }
 

@@ -1,5 +1,6 @@
 // The time `later` (s) of a difference quotient (f(later) - f(t)) / (later - t) at the start t of a step h. It lies
-// inside the step, because f may have a kink at t, and is distinguishable from t. Divide by later - t, which is exact.
+// after t, because f may have a kink at t, and inside the step if h > 1e-10 |t|. Divide by later - t as computed,
+// because `later` is rounded.
 #pragma once
 
 #include <algorithm>

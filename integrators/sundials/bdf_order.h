@@ -1,4 +1,4 @@
-// The highest order of CVODE's and IDA's BDF.
+// Chooses the highest order of the BDF methods of CVODE and IDA.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Callbacks from SUNDIALS' C code into the model. No exception passes through C code.
+// Guards callbacks from SUNDIALS' C code into the model, so that no exception passes through C code.
 #pragma once
 
 #include <exception>
@@ -13,7 +13,7 @@ namespace orthodyn::sundials {
 // State shared by an integrator and its callbacks.
 struct CallbackContext {
   std::exception_ptr failure;     // a fatal exception, rethrown after the C code has returned
-  std::string recoverable_cause;  // why the last evaluation asked for a smaller step
+  std::string recoverable_cause;  // message of the last RecoverableError
   std::string message;            // SUNDIALS' last error message
 };
 

@@ -1,17 +1,17 @@
 // Newton's method for F(x) = 0 with the matrix A of an earlier step. Each correction is improved by the last two
 // secants (Anderson 1965, type II, depth 2).
 //
-// If A has an outdated gamma or the body has moved, the corrections d_k = -A^-1 F(x_k) shrink only by a constant factor
-// along a few directions. With the differences dx_i of successive iterates and dd_i of their corrections, the improved
-// correction is
+// If gamma or the state has changed since A was factored, the corrections d_k = -A^-1 F(x_k) shrink only by a constant
+// factor along a few directions. With the differences dx_i of successive iterates and dd_i of their corrections, the
+// improved correction is
 //
 //     dx = d_k - sum_i g_i (dx_i + dd_i),
 //
 // where the g_i minimise |d_k - sum_i g_i dd_i| in the norm of the error test. This needs no additional force
 // evaluation. Matrices remain useful for longer, so fewer are factored.
 //
-// This class has its own convergence test. The libraries' test judges the first correction, which no secant improves,
-// by the rate of earlier steps and would accept it too early.
+// This class has its own convergence test. The tests of CVODE, IDA and ARKODE judge the first correction by the
+// convergence rate of earlier steps. They would accept it too early, because no secant has improved it.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -26,14 +26,14 @@ namespace orthodyn::sundials {
 
 class SecantNewton {
  public:
-  // least_rate: best factor by which corrections can shrink; 0 with a direct solver (NewtonMatrix::least_rate()).
-  // `space`: Model::space(). `callbacks` keeps exceptions thrown by sums over ranks.
+  // `least_rate`: smallest ratio of successive corrections; 0 with a direct solver (NewtonMatrix::least_rate()).
+  // `space`: Model::space(). `callbacks` receives exceptions thrown by sums over ranks.
   SecantNewton(N_Vector y, SUNContext context, CallbackContext& callbacks, const VectorSpace& space = {},
                double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
-  // Pass it to the library, whose convergence test is then ignored. This object must outlive the library's memory.
+  // For CVODE, IDA or ARKODE, whose convergence test is then ignored. This object must outlive their memory block.
   SUNNonlinearSolver get() const { return solver_.get(); }
 
   // Memory (bytes), including the vector held by SUNDIALS' iteration.

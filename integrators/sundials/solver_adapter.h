@@ -12,8 +12,8 @@ namespace orthodyn::sundials {
 OwnedMatrix make_placeholder_matrix(SUNContext context);
 
 // The functions of a direct or iterative linear solver. `tolerance` is for iterative solvers: the allowed error of x in
-// the norm of the error test, a share (SUNDIALS' eplifac) of Newton's tolerance. Both functions return 0, > 0
-// (recoverable) or < 0 (fatal).
+// the norm of the error test, which is SUNDIALS' eplifac times the tolerance of Newton's method. Both functions return
+// 0 (success), > 0 (recoverable) or < 0 (fatal).
 struct SolverFunctions {
   std::function<int()> setup;
   std::function<int(N_Vector x, N_Vector b, double tolerance)> solve;

@@ -18,7 +18,7 @@ namespace orthodyn {
 
 struct BucklingMode {
   double load_factor = 0;  // critical factor on the loads at the time of the analysis
-  Vector shape;            // phi at the free coordinates, phi . K phi = 1
+  Vector shape;            // phi at the free coordinates, m; phi . K phi = 1 J
   double residual = 0;     // |phi + lambda K^-1 K_g phi| in the norm of K
 };
 
@@ -29,7 +29,7 @@ struct BucklingModes {
 
 // Computes at most `count` modes for the loads at time t (s). Negative load factors are not computed. `unloaded`:
 // displacements (m) of the free coordinates in equilibrium without loads. Throws ConfigError for an unsymmetric
-// tangent; RunError if the body is not held or unstable, if it has no loads, or if the iteration fails.
+// tangent; RunError if the body is not held or is unstable, if it has no loads, or if the iteration fails.
 BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, double t, int count);
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Files of mode shapes: modes.csv, and modes.pvd for ParaView with a .vtu file for each shape.
+// Files of a modal analysis: modes.csv with one row per mode, and modes.pvd for ParaView with one .vtu file per shape.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace orthodyn {
 
-// Throws ConfigError if the folder contains other files than earlier modes, or if it contains earlier modes and
-// `replace` is false.
+// Throws ConfigError if the folder has files but no modes.csv, if it has modes.csv and `replace` is false, or if it is
+// a file.
 void check_modes_folder(const std::filesystem::path& folder, bool replace);
 
-// Writes the files, replacing earlier modes. Throws RunError.
+// Writes all files, after removing earlier ones. Throws RunError if a file cannot be removed or written.
 void write_modes(const std::filesystem::path& folder, const ModalAnalysis& analysis);
 
 // Writes modes.pvd and a .vtu file for each shape; the time of shape k in modes.pvd is k, starting at 1. Each .vtu file
 // contains the shape, scaled to a largest displacement of 1, and the displacement of the state `about`. `shapes`:
-// vectors of unknowns. Throws RunError.
+// vectors of unknowns, each with a nonzero displacement. Throws RunError if a file cannot be written.
 void write_shapes(const std::filesystem::path& folder, const Model& model, const State& about,
                   const std::vector<Vector>& shapes);
 

@@ -1,4 +1,4 @@
-// Changes to a scene in a study's file: values of scene keys by path.
+// Changes that a study's file makes to a scene: values of scene keys by path.
 #pragma once
 
 #include <string>
@@ -20,13 +20,14 @@ struct Value<YamlText> {
   static std::string yaml(const YamlText& x) { return x.text; }
 };
 
-// Values by path in the scene, with their places for error messages.
+// Values by the path of their scene key.
 using Assignments = Named<YamlText>;
 
 // Parses the text. Throws ConfigError if it is not YAML.
 inline Config parsed(const YamlText& value) { return Config::from_text("v: " + value.text).at("v"); }
 
-// Set one key of a scene, or several in order. Missing sections are created. Throw ConfigError.
+// Set one key of a scene, or several in order. Throw ConfigError if a value is not YAML, or as Config::set() does.
+// Missing sections are created.
 inline void assign(Config& scene, const std::string& path, const YamlText& value) {
   scene.set_yaml(path, value.text, value.origin.where);
 }

@@ -1,4 +1,4 @@
-// Runs a stability study, each entry of the matrix in its own process, and writes its results.
+// Runs a stability study and formats its results. Each run (case x variant x integrator) has its own process.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ class StabilityMatrix {
   // Reads and builds every scene. Results already in the folder are kept. Throws ConfigError for invalid input.
   StabilityMatrix(Stability stability, std::filesystem::path folder);
 
-  // Calls `after_each` after each run, also if its result was already in the folder (`cached`). Returns false if
-  // interrupted. Throws as JobQueue::run() does.
+  // Calls `after_each` for each run, also if its result was not computed now (`cached`, see JobEvents). Returns false
+  // if interrupted. Throws as JobQueue::run() does.
   bool run(const JobQueue& queue,
            const std::function<void(std::size_t run, const StabilityResult&, bool cached)>& after_each);
 
@@ -42,8 +42,8 @@ class StabilityMatrix {
   std::map<std::size_t, StabilityResult> results_;
 };
 
-// An expectation that all integrators miss by about the same amount. The fault is then suspected in the expectation or
-// in the model, not in the integrators.
+// An expectation that all completed integrators miss by about the same amount. The fault is then suspected in the
+// expectation or in the model, not in the integrators.
 struct Suspicion {
   std::string hard_case, variant, metric;
   std::size_t integrators = 0;     // number that completed
@@ -55,8 +55,8 @@ struct Suspicion {
 std::string describe(const Suspicion& suspicion);
 
 // `cases` and `trials`: as in stability.json. An expectation of a case and variant is suspected if at least two
-// integrators completed, none of them passes, all have the same worst metric, and its computed values differ by at most
-// its limit. Cases with a `model` reason are left out.
+// integrators completed, none of them passes, all have the same worst metric, and the computed values of this metric
+// differ by at most its limit. Cases whose `model` is not empty (HardCase) are left out.
 std::vector<Suspicion> suspected_expectations(const Json& cases, const Json& trials);
 
 }  // namespace orthodyn::study::stability
