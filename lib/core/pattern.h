@@ -28,7 +28,9 @@ struct Pattern {
   bool symmetric = true;          // only the lower triangle is stored
   std::vector<int> column_start;  // start of each column in `row`, and the end of the last; n + 1 entries
   std::vector<int> row;
-  std::vector<int> coordinate;  // 3 point + component of each unknown, ascending; empty if unknowns have none
+  // 3 point + component of each unknown, ascending; empty if unknowns have none. Unknowns of one point have entries in
+  // the same rows.
+  std::vector<int> coordinate;
   std::shared_ptr<const PatternShare> share = {};  // null if the matrix is not distributed over ranks
 
   int non_zeros() const { return static_cast<int>(row.size()); }
@@ -37,11 +39,8 @@ struct Pattern {
     return {n, n, non_zeros(), column_start.data(), row.data(), values};
   }
 
-  // y = A x
-  void multiply(const double* values, const ConstVectorRef& x, VectorRef y) const {
-    if (symmetric) y = matrix(values).selfadjointView<Eigen::Lower>() * x;
-    else y = matrix(values) * x;
-  }
+  // Computes y = A x; x and y are different vectors of size n.
+  void multiply(const double* values, const ConstVectorRef& x, VectorRef y) const;
 };
 
 }  // namespace orthodyn
