@@ -79,6 +79,11 @@ class LinearLaw {
   PointObservation observe(const Mat3& H, const Mat3& Q) const {
     return {stress<double>(H, Q) * Q.transpose(), Q, small_strain<double>(H, Q)};
   }
+  template <class Axes>
+  PointObservationOf<Batch> batch_observe(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+    const Mat3T<Batch> all_axes = Q.template cast<Batch>();
+    return {batch_stress(H, Q, nullptr, 0, good) * all_axes.transpose(), all_axes, small_strain<Batch>(H, Q)};
+  }
 
  private:
   static Batch::Mask not_nan(const Mat3T<Batch>& A) { return A(0, 0) <= A(0, 0); }

@@ -72,6 +72,18 @@ class RotatingLaw {
     return {cauchy_stress(P, F), p.R, stretch_strain<double>(H, Q, p.S)};
   }
 
+  // Inverted lanes are not good.
+  template <class Axes>
+  ORTHODYN_FLATTEN PointObservationOf<Batch> batch_observe(const Mat3T<Batch>& H, const Axes& Q,
+                                                           Batch::Mask& good) const {
+    const Mat3T<Batch> F = deformation_gradient<Batch>(H, Q);
+    const Mat3T<Batch> P = static_cast<const Law&>(*this).batch_stress(H, Q, nullptr, 0, good);
+    Polar<Batch> p;
+    const Batch det_F = F.determinant();
+    good = good & regular_polar(H, Q, p) & (det_F > Batch(0));
+    return {symmetric_part<Batch>(P * F.transpose()) / det_F, p.R, stretch_strain<Batch>(H, Q, p.S)};
+  }
+
  protected:
   // Sets p. Returns the mask of lanes in which p is valid and the state is regular (blend.h).
   template <class Axes>

@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kSmallStep = 1e-6;  // largest displacement of the difference, relative to the body's smallest extent
 
-SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, int point)>& value) {
+SixColumns at_points(const ElasticTerm& term, const NodalState& s, const StressRecovery::Pick& pick) {
   SixColumns out(term.size() * term.num_points(), 6);
-  for (int k = 0; k < term.size(); ++k)
-    for (int p = 0; p < term.num_points(); ++p) out.row(k * term.num_points() + p) = value(k, p).transpose();
+  term.observe_points(s, [&](int k, int p, const PointObservation& observation) {
+    out.row(k * term.num_points() + p) = pick(observation).transpose();
+  });
   return out;
 }
 
@@ -68,8 +69,7 @@ StressRecovery::NodalValues StressRecovery::at_nodes_of_region(std::size_t regio
                                                                const Pick& pick) const {
   const ElasticTerm& term = *terms_[region];
   const RegionRecovery& recovery = regions()[region].recovery;
-  const auto value = [&](int k, int p) { return pick(term.observe_point(k, p, s)); };
-  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, value)))};
+  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, s, pick)))};
 }
 
 std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) const {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "lib/fem/block_pattern.h"
@@ -112,7 +113,7 @@ TEST_P(BatchedElements, TangentIsTheSumOfThatOfEach) {
 }
 
 // The first elements, fewer each time: each element is once the last of a partly filled batch.
-TEST_P(BatchedElements, StrainsAreThoseOfItsPoints) {
+TEST_P(BatchedElements, StrainsAndObservationsAreThoseOfItsPoints) {
   Random random(8);
   int num_inverted = 0;
   for (const bool inverted : {false, true}) {
@@ -122,12 +123,28 @@ TEST_P(BatchedElements, StrainsAreThoseOfItsPoints) {
       const auto elastic = term(cells);
       const auto strains = elastic->strains(s);
       ASSERT_EQ(strains.cols(), elastic->size() * elastic->num_points());
+      std::vector<PointObservation> seen(static_cast<std::size_t>(strains.cols()));
+      std::atomic<int> visits = 0;
+      elastic->observe_points(s, [&](int k, int p, const PointObservation& observation) {
+        seen[static_cast<std::size_t>(k * elastic->num_points() + p)] = observation;
+        ++visits;
+      });
+      EXPECT_EQ(visits, strains.cols());
       for (int k = 0; k < elastic->size(); ++k)
         for (int p = 0; p < elastic->num_points(); ++p) {
-          const Vec6 expected = voigt_strain<double>(elastic->observe_point(k, p, s).strain);
+          const auto i = k * elastic->num_points() + p;
+          const PointObservation expected = elastic->observe_point(k, p, s), &found = seen[static_cast<std::size_t>(i)];
+          const Vec6 strain = voigt_strain<double>(expected.strain);
           num_inverted += elastic->det_F(k, s) <= 0;
-          EXPECT_LE((strains.col(k * elastic->num_points() + p) - expected).norm(), 1e-13 * (1 + expected.norm()))
+          EXPECT_LE((strains.col(i) - strain).norm(), 1e-13 * (1 + strain.norm()))
               << "element " << k << " of " << cells.size();
+          EXPECT_LE((found.strain - expected.strain).norm(), 1e-13 * (1 + strain.norm())) << k;
+          EXPECT_LE((found.axes - expected.axes).norm(), 1e-12) << k;
+          if (expected.cauchy.hasNaN()) EXPECT_TRUE(found.cauchy.hasNaN());
+          else
+            EXPECT_LE((found.cauchy - expected.cauchy).norm(),
+                      1e-12 * (elastic->stiffness().norm() + expected.cauchy.norm()))
+                << k;
         }
     }
   }

@@ -8,6 +8,7 @@
 // RecoverableError if a deformation gradient is not finite.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,11 @@ class ElasticTerm : public Term {
   // Number of integration points per element, and strain, stress and axes at one of them.
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
+
+  // Calls visit(k, point, observation) for all points, concurrently for different elements. Much faster than
+  // observe_point().
+  using VisitPoint = std::function<void(int k, int point, const PointObservation& observation)>;
+  virtual void observe_points(const NodalState& s, const VisitPoint& visit) const = 0;
 
   // PointObservation::strain at all points in Voigt form with engineering shear, one column per point, element by
   // element. Much faster than observe_point().

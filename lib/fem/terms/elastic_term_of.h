@@ -152,6 +152,17 @@ class ElasticTermOf final : public ElasticTerm {
     return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p));
   }
 
+  void observe_points(const NodalState& s, const VisitPoint& visit) const override {
+    for_each_batch_point([&](int b, int p) {
+      Batch::Mask good;
+      const auto all = law_.batch_observe(elements_.gradients(b, p, s.u), axes().batch(b, p), good);
+      for (int l = 0; l < elements_.lanes(b); ++l) {
+        const int k = b * Batch::kLanes + l;
+        visit(k, p, good[l] ? lane_of(all, l) : observe_point(k, p, s));
+      }
+    });
+  }
+
   Mat3 axes_at_rest(int k, int p) const override { return axes().of(k, p); }
 
   double det_F(int k, const NodalState& s) const override {
