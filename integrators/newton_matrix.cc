@@ -9,7 +9,10 @@ constexpr int kGaussNewtonSetups = 10;
 }
 
 NewtonMatrix::NewtonMatrix(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics)
-    : model_(model), statistics_(statistics), tangent_(tangent) {
+    : model_(model),
+      statistics_(statistics),
+      tangent_(tangent),
+      needs_exact_solutions_(model.traits().linear || model.traits().free) {
   const auto& kind = solver_registry().at(solver.type);
   if (!model.pattern().symmetric && !kind.takes_general)
     throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu or klu_full, or " +

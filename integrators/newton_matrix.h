@@ -42,8 +42,11 @@ class NewtonMatrix {
   double least_rate() const { return is_iterative() ? kNewtonForcing : 0; }
   // Sets the tolerance for corrections of Newton's method: a relative error of 1e-2 (forcing term) or an absolute error
   // of `absolute`, whichever is larger. The next correction removes what is left (Dembo, Eisenstat & Steihaug, SIAM J.
-  // Numer. Anal. 19, 1982).
-  void set_newton_tolerance(double absolute) { set_tolerance({kNewtonForcing, absolute}); }
+  // Numer. Anal. 19, 1982). A direct solver may then use single precision, except for linear models, whose first
+  // correction is the solution, and free bodies, whose linear momentum is kept to round-off.
+  void set_newton_tolerance(double absolute) {
+    if (is_iterative() || !needs_exact_solutions_) set_tolerance({kNewtonForcing, absolute});
+  }
 
   // Computes y = K x.
   void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const;
@@ -64,6 +67,7 @@ class NewtonMatrix {
   Statistics& statistics_;
   std::unique_ptr<LinearSolver> solver_;
   TangentKind tangent_;
+  bool needs_exact_solutions_;
   int gauss_newton_left_ = 0;  // number of further linearize() calls that use the Gauss-Newton part
   State at_;                   // at which K and D were computed
   Linearization linearization_;

@@ -32,7 +32,9 @@ StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const
       r_(model.num_dofs()),
       dx_(model.num_dofs()),
       guess_(model.num_dofs()),
-      work_(model.num_dofs()) {}
+      work_(model.num_dofs()) {
+  matrix_.set_newton_tolerance(0);
+}
 
 void StageSolver::begin_step() {
   if (kind_ != NewtonKind::lazy) stale_ = true;

@@ -41,7 +41,7 @@ OwnedMatrix FullJacobian::make_matrix(SUNContext context) const {
   const auto block = static_cast<sunindextype>(row_.size());
   OwnedMatrix J(SUNSparseMatrix(2 * n, 2 * n, 2 * n + block + (full_v_block_ ? block : n), CSC_MAT, context));
   if (!J)
-    throw RunError("the 2n x 2n Jacobian does not fit in memory; use linear_solver: cholmod", Reason::out_of_memory);
+    throw RunError("the 2n x 2n Jacobian does not fit in memory; use linear_solver: cholesky", Reason::out_of_memory);
   return J;
 }
 

@@ -14,6 +14,7 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
       momentum_(model.num_dofs()) {
   if (options.is_full()) full_.emplace(model);
   else reduced_.emplace(model, options.linear_solver, options.tangent(), statistics);
+  if (reduced_) reduced_->set_newton_tolerance(0);
 }
 
 void NewtonSystem::create_first_order(SUNContext context, std::function<double()> gamma) {

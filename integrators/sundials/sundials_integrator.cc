@@ -35,7 +35,7 @@ void SundialsIntegrator::check_mass_for_full_jacobian() const {
   if (!options_.is_full() || model_.traits().lumped_mass) return;
   throw ConfigError(
       "linear_solver klu_full under " + name_ +
-      " needs `mass: lumped` (the inverse of a consistent mass is dense); use ida_bdf, or klu or cholmod");
+      " needs `mass: lumped` (the inverse of a consistent mass is dense); use ida_bdf, or klu or cholesky");
 }
 
 void SundialsIntegrator::set_error_weights() {

@@ -65,7 +65,7 @@ BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, doub
     throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
   const auto structure = without_loads(model), loads = model.only(model.load_parts().value());
   const Values K = stiffness_at(*structure, t, unloaded, TangentKind::exact);
-  const auto solver = make_linear_solver("cholmod", pattern);
+  const auto solver = make_linear_solver("cholesky", pattern);
   if (solver->factor(K.data()) != FactorStatus::ok)
     throw RunError("the stiffness without loads is not positive definite: the body is not held, or unstable");
   Vector f(unloaded.size()), u(unloaded.size());

@@ -41,13 +41,13 @@ class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
     if (!pattern.symmetric) return use("klu", pattern);
-    if (pattern.share) return use(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
+    if (pattern.share) return use(pattern.share->unknowns < kIterativeFrom ? "cholesky" : "petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
-    if (!has_petsc || pattern.n < kIterativeFrom) return use("cholmod", pattern);
+    if (!has_petsc || pattern.n < kIterativeFrom) return use("cholesky", pattern);
     if (pattern.n >= kOnlyIterativeFrom)
       return use("petsc", pattern, fmt::format("no factor is tried for {} unknowns", pattern.n));
     try {
-      use("cholmod", pattern);
+      use("cholesky", pattern);
     } catch (const RunError&) {  // more than 2^31 entries, or no memory for the analysis
       return use("petsc", pattern, "the analysis of a factor failed");
     }
@@ -57,7 +57,7 @@ class AutomaticSolver : public LinearSolver {
     try {
       use("petsc", pattern, because);
     } catch (const ConfigError&) {  // PETSc cannot be loaded
-      use("cholmod", pattern, because + ", but PETSc cannot be loaded");
+      use("cholesky", pattern, because + ", but PETSc cannot be loaded");
     }
   }
 
@@ -90,7 +90,7 @@ class AutomaticSolver : public LinearSolver {
 };
 
 const bool automatic_registered = register_solver(
-    "auto", {"cholmod where its factor fits in memory and costs less than iterations, else petsc; on several ranks "
+    "auto", {"cholesky where its factor fits in memory and costs less than iterations, else petsc; on several ranks "
              "petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
              true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }, false, "", true});
 

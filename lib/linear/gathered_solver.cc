@@ -131,6 +131,10 @@ class GatheredSolver : public LinearSolver {
     ranks().scatter(all, {x.data(), static_cast<std::size_t>(x.size())});
   }
 
+  void set_tolerance(const SolveTolerance& tolerance) override {
+    if (ranks().is_first()) solver_->set_tolerance(tolerance);
+  }
+
   std::size_t factor_bytes() const override { return ranks().is_first() ? solver_->factor_bytes() : 0; }
   std::string description() const override {
     return fmt::format("{}, on the first of {} ranks", solver_->description(), ranks().size());

@@ -23,7 +23,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, con
 }
 
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
-  return make_linear_solver({pattern.symmetric ? "cholmod" : "klu"}, pattern);
+  return make_linear_solver({pattern.symmetric ? "cholesky" : "klu"}, pattern);
 }
 
 }  // namespace orthodyn

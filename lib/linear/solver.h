@@ -39,8 +39,8 @@ class LinearSolver {
   // Prepares for matrices on this pattern, which must outlive the solver. Throws RunError if memory does not suffice.
   virtual void analyze(const Pattern& pattern) = 0;
 
-  // Factorises new values, one for each entry of the pattern. There is no factor unless `ok` is returned. Throws
-  // RunError if memory does not suffice.
+  // Factorises new values, one for each entry of the pattern. There is no factor unless `ok` is returned. The values
+  // must stay unchanged as long as solve() is called. Throws RunError if memory does not suffice.
   virtual FactorStatus factor(const double* values) = 0;
 
   // True if factor() detects every indefinite symmetric A. Call it after analyze().
@@ -52,7 +52,8 @@ class LinearSolver {
 
   // True if solutions are accurate to a tolerance, false if to round-off. Call it after analyze().
   virtual bool is_iterative() const { return false; }
-  // Sets the tolerance of the next solutions of an iterative solver. Call it after analyze().
+  // Sets the tolerance of the next solutions of an iterative solver. A direct solver may then use single precision from
+  // the next factor() on. Call it after analyze().
   virtual void set_tolerance(const SolveTolerance&) {}
 
   // True if rigid motions (n x 6, one in each column) would improve the next factor().

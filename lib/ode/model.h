@@ -40,6 +40,7 @@ struct Traits {
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
   bool smooth = true;           // f has no kinks in q: there is no contact
+  bool free = false;            // nothing holds a point: linear momentum changes by loads alone
   bool exact_stiffness = true;  // K is -df/dq or its symmetric part, not an approximation
 };
 

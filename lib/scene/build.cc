@@ -121,6 +121,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
   traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
   traits.lumped_mass = scene.mass == MassKind::lumped;
+  traits.free = scene.clamps.empty() && scene.motions.empty();
   traits.exact_stiffness = all([](const ElasticityOptions& e) { return e.has_exact_tangent(); });
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
   traits.conservative = !traits.dissipative && all([](const ElasticityOptions& e) { return !e.is_warped(); });

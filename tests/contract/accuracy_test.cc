@@ -158,7 +158,7 @@ TEST(LinearSolvers, AllTakeNearlyTheSameStepsOnAStiffModel) {
 TEST(LinearSolvers, AnIterativeOneCostsNeitherAccuracyNorSteps) {
   for (const auto& pair : all_pairs()) {
     if (pair.solver != "petsc") continue;
-    const Pair direct{pair.integrator, "cholmod"};
+    const Pair direct{pair.integrator, "cholesky"};
     const Options options{1e-5, 2};
     const auto steps = [&](const Pair& tried) {
       const auto model = chain(false);
@@ -172,8 +172,9 @@ TEST(LinearSolvers, AnIterativeOneCostsNeitherAccuracyNorSteps) {
   }
 }
 
+// Corrections in single precision leave an error far below the tolerance of Newton's method, 0.01 rtol or more.
 TEST(LinearSolvers, AllTakeTheSameStepsOnANonlinearModel) {
-  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2});
+  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2}, {0, 0.01});
 }
 
 }  // namespace

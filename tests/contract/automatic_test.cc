@@ -25,7 +25,7 @@ MethodChoice expected_choice(const SmallModel& model, double rtol) {
   const Task task{[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50};
   ErrorControl control;
   control.rtol = rtol;
-  const CostEstimate cost = estimate_cost(model, task, model.scales(), "cholmod");
+  const CostEstimate cost = estimate_cost(model, task, model.scales(), "cholesky");
   const MethodChoice stepping = choose_method(cost, rtol, static_cast<double>(control.max_steps));
   return plan_modal(model, task, cost, control, stepping).value_or(stepping);
 }

@@ -128,7 +128,7 @@ TEST(CostEstimate, IsThatOfAModelWithKnownModes) {
                            .end = span});
   const Task task{[] { return Scales{}; }, model.initial(), model.end(), 1};
   // The position scale is a tenth of the motion.
-  const auto cost = estimate_cost(model, task, {.position = 0.1, .velocity = omega}, "cholmod");
+  const auto cost = estimate_cost(model, task, {.position = 0.1, .velocity = omega}, "cholesky");
   EXPECT_DOUBLE_EQ(cost.phase, span * omega);
   EXPECT_NEAR(cost.damping_ratio, beta * omega / 2, 1e-9);
   EXPECT_NEAR(cost.explicit_steps, span * (delta + std::sqrt(delta * delta + kappa)) / 2, 1e-6);
@@ -139,7 +139,7 @@ TEST(CostEstimate, IsThatOfAModelWithKnownModes) {
 TEST(CostEstimate, OfAModelWithoutDampingHasNone) {
   const auto model = harmonic_oscillator();
   const Task task{[] { return Scales{}; }, model.initial(), model.end(), 1};
-  EXPECT_EQ(estimate_cost(model, task, {1, 3}, "cholmod").damping_ratio, 0);
+  EXPECT_EQ(estimate_cost(model, task, {1, 3}, "cholesky").damping_ratio, 0);
 }
 
 }  // namespace

@@ -53,14 +53,14 @@ std::vector<std::string> tried_solvers(const std::string& integrator) {
   if (!solves_systems(integrator)) return {"none"};
   const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
   if (!tested(integrator).full_path) {
-    std::vector<std::string> names{"cholmod", "klu"};
+    std::vector<std::string> names{"cholesky", "klu"};
     // PETSc with one native method of each kind; the others solve in the same way.
     if (has_petsc && (integrator == "tr_bdf2" || integrator == "rosenbrock")) names.push_back("petsc");
     return names;
   }
   std::vector<std::string> names;
   for (const auto& [name, kind] : solver_registry())
-    if (name != "auto" && (name != "petsc" || has_petsc)) names.push_back(name);  // auto is cholmod for small models
+    if (name != "auto" && (name != "petsc" || has_petsc)) names.push_back(name);  // auto is cholesky for small models
   return names;
 }
 

@@ -22,7 +22,7 @@ Vector product(const Model& model, const Weights& weights, TangentKind kind, con
 TEST(NewtonMatrix, SolvesWithTheWeightsOfItsLastFactor) {
   const auto model = chain(true);
   const State at = model.initial();
-  for (const std::string solver : {"cholmod", "eigen_ldlt", "klu"}) {
+  for (const std::string solver : {"cholesky", "eigen_ldlt", "klu"}) {
     Statistics statistics;
     NewtonMatrix matrix(model, solver, TangentKind::exact, statistics);
     matrix.linearize(at.t, at.q, at.v);
@@ -42,7 +42,7 @@ TEST(NewtonMatrix, MultipliesByTheStiffness) {
   const auto model = chain(false);
   const State at = model.initial();
   Statistics statistics;
-  NewtonMatrix matrix(model, "cholmod", TangentKind::exact, statistics);
+  NewtonMatrix matrix(model, "cholesky", TangentKind::exact, statistics);
   matrix.linearize(at.t, at.q, at.v);
   const Vector x = Vector::LinSpaced(model.num_dofs(), 1, 2);
   Vector y(x.size());
@@ -56,7 +56,7 @@ TEST(NewtonMatrix, TakesTheGaussNewtonPartWhereTheExactOneIsIndefinite) {
   const State at = model.initial();
   const Weights weights{1, 0, 100};
   Statistics statistics;
-  NewtonMatrix matrix(model, "cholmod", TangentKind::exact, statistics);
+  NewtonMatrix matrix(model, "cholesky", TangentKind::exact, statistics);
   matrix.linearize(at.t, at.q, at.v);
   ASSERT_TRUE(matrix.factor(weights));
   EXPECT_EQ(statistics.gauss_newton_fallbacks, 1);
@@ -70,7 +70,7 @@ TEST(NewtonMatrix, StaysWithTheGaussNewtonPartForTenSetUps) {
   const auto model = upright_column();
   const State at = model.initial();
   Statistics statistics;
-  NewtonMatrix matrix(model, "cholmod", TangentKind::exact, statistics);
+  NewtonMatrix matrix(model, "cholesky", TangentKind::exact, statistics);
   const auto set_up = [&] {
     matrix.linearize(at.t, at.q, at.v);
     ASSERT_TRUE(matrix.factor({1, 0, 100}));
@@ -85,7 +85,7 @@ TEST(NewtonMatrix, TakesTheGaussNewtonPartFromTheStartIfTold) {
   const auto model = upright_column();
   const State at = model.initial();
   Statistics statistics;
-  NewtonMatrix matrix(model, "cholmod", TangentKind::gauss_newton, statistics);
+  NewtonMatrix matrix(model, "cholesky", TangentKind::gauss_newton, statistics);
   matrix.linearize(at.t, at.q, at.v);
   EXPECT_TRUE(matrix.factor({1, 0, 100}));
   EXPECT_EQ(statistics.gauss_newton_fallbacks, 0);
@@ -96,7 +96,7 @@ TEST(NewtonMatrix, OfAnUnsymmetricTangentNeedsASolverThatTakesIt) {
   Statistics statistics;
   EXPECT_NO_THROW(NewtonMatrix(model, "klu", TangentKind::exact, statistics));
   try {
-    NewtonMatrix(model, "cholmod", TangentKind::exact, statistics);
+    NewtonMatrix(model, "cholesky", TangentKind::exact, statistics);
     FAIL() << "accepted";
   } catch (const ConfigError& e) {
     EXPECT_TRUE(e.place().empty());

@@ -125,7 +125,7 @@ TEST_P(AnySolver, SaysWhatItChose) {
 
 // `auto` chooses a solver for definite matrices if the pattern is symmetric, else one for general matrices.
 class CholeskySolver : public AnySolver {};
-INSTANTIATE_TEST_SUITE_P(Registry, CholeskySolver, testing::Values("auto", "cholmod", "eigen_ldlt"),
+INSTANTIATE_TEST_SUITE_P(Registry, CholeskySolver, testing::Values("auto", "cholesky", "cholmod", "eigen_ldlt"),
                          [](const auto& tested) { return tested.param; });
 
 // A symmetric matrix with a negative diagonal entry has a negative eigenvalue, and by Sylvester's law a negative pivot.

@@ -80,7 +80,7 @@ TEST(Modal, WithAllModesIsTheExactSolution) {
 Vector static_deflection(const BuiltTestScene& s, const Vector& load) {
   Linearization at;
   s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
-  const auto solver = make_linear_solver("cholmod");
+  const auto solver = make_linear_solver("cholesky");
   solver->analyze(s.model().pattern());
   EXPECT_EQ(solver->factor(at.stiffness.data()), FactorStatus::ok);
   Vector u(load.size());

@@ -127,7 +127,7 @@ TEST_P(SharedModel, SolvesItsMatrix) {
   parts().combine({1, 1e-2, 1e-4}, at, A.data());
   Vector b(parts().num_dofs()), x(parts().num_dofs());
   parts().multiply_matrix(A.data(), part.v, b);
-  for (const char* name : {"auto", "petsc", "cholmod", "eigen_ldlt", "klu"}) {
+  for (const char* name : {"auto", "petsc", "cholesky", "cholmod", "eigen_ldlt", "klu"}) {
     if (!solver_registry().at(name).unavailable.empty()) continue;
     const auto solver = make_linear_solver(name, parts().pattern());
     solver->set_tolerance({1e-10, 0});
@@ -147,7 +147,7 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsIndefinite) {
   parts().linearize(part.t, part.q, part.v, TangentKind::gauss_newton, at);
   std::vector<double> A(parts().pattern().row.size());
   parts().combine({-1, 0, 1e-9}, at, A.data());
-  const auto solver = make_linear_solver("cholmod", parts().pattern());
+  const auto solver = make_linear_solver("cholesky", parts().pattern());
   EXPECT_TRUE(solver->checks_definiteness());
   EXPECT_EQ(solver->factor(A.data()), FactorStatus::not_positive_definite);
   parts().combine({1, 0, 0}, at, A.data());

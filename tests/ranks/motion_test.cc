@@ -76,7 +76,7 @@ TEST_P(SharedMethod, TakesTheStepsThatItTakesOnOneRank) {
   const auto choice = Registry<IntegratorChoice>::entries().at(GetParam()).make();
   std::string keys = "{type: " + GetParam() + (choice->settings().rtol ? ", rtol: 1.0e-5" : ", step: 1.0e-5");
   if (GetParam() == "arkode_imex") keys += ", explicit: [gravity]";
-  if (choice->settings().linear_solver) keys += ", linear_solver: cholmod";
+  if (choice->settings().linear_solver) keys += ", linear_solver: cholesky";
   for (const SharedScene& scene : shared_scenes()) {
     if (scene.name != "clamped" && scene.name != "small") continue;
     SCOPED_TRACE(scene.name);

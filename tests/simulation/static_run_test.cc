@@ -38,7 +38,7 @@ TEST_F(StaticRun, WritesAFrameAndARowPerLoadStep) {
 TEST_F(StaticRun, ByAnIterativeSolverEndsWhereThatByAFactorDoes) {
   write("shelf.yaml", kShelf);
   std::vector<std::vector<double>> last;
-  for (const std::string solver : {"cholmod", "petsc"}) {
+  for (const std::string solver : {"cholesky", "petsc"}) {
     const auto result =
         orthodyn("run shelf.yaml --quiet --force --out out --set statics.solver.linear_solver=" + solver);
     if (result.output.find("built without PETSc") != std::string::npos) GTEST_SKIP() << result.output;

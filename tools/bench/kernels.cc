@@ -65,36 +65,43 @@ void energy(benchmark::State& state, const BentBeam& beam) {
   count(state, beam);
 }
 
+enum class Use { in_double, in_single, cholmod };
+
 struct Factored {
-  explicit Factored(const BentBeam& beam)
-      : solver(make_linear_solver("cholmod")), values(beam.model().pattern().row.size()) {
+  Factored(const BentBeam& beam, Use use)
+      : solver(make_linear_solver(use == Use::cholmod ? "cholmod" : "cholesky")),
+        values(beam.model().pattern().row.size()) {
     Linearization at;
     beam.model().linearize(0, beam.q(), beam.v(), TangentKind::exact, at);
     beam.model().combine({1, 1e-2, 1e-4}, at, values.data());
     solver->analyze(beam.model().pattern());
+    if (use == Use::in_single) solver->set_tolerance({1e-2, 0});
     solver->factor(values.data());
   }
   std::unique_ptr<LinearSolver> solver;
   std::vector<double> values;
 };
 
+template <Use use>
 void factorisation(benchmark::State& state, const BentBeam& beam) {
-  Factored factored(beam);
+  Factored factored(beam, use);
   for (auto _ : state) factored.solver->factor(factored.values.data());
   count(state, beam);
   state.counters["bytes"] = static_cast<double>(factored.solver->factor_bytes());
 }
 
+template <Use use>
 void solve(benchmark::State& state, const BentBeam& beam) {
-  Factored factored(beam);
+  Factored factored(beam, use);
   Vector x(beam.q().size());
+  factored.solver->solve(beam.q(), x);  // the first solution in single precision is refined
   for (auto _ : state) factored.solver->solve(beam.q(), x);
   count(state, beam);
 }
 
 void analysis(benchmark::State& state, const BentBeam& beam) {
   for (auto _ : state) {
-    const auto solver = make_linear_solver("cholmod");
+    const auto solver = make_linear_solver("cholesky");
     solver->analyze(beam.model().pattern());
   }
   count(state, beam);
@@ -134,6 +141,18 @@ void add_threaded(const std::string& kernel, const std::string& size, const std:
   })->UseRealTime();
 }
 
+// Cholesky beside CHOLMOD.
+void add_solvers(const std::string& size, const std::shared_ptr<LazyBeam>& beam) {
+  add("factorisation", size, beam, factorisation<Use::in_double>);
+  add_threaded("factorisation", size, beam, factorisation<Use::in_double>);
+  add("factorisation, single precision", size, beam, factorisation<Use::in_single>);
+  add_threaded("factorisation, single precision", size, beam, factorisation<Use::in_single>);
+  add("factorisation, CHOLMOD", size, beam, factorisation<Use::cholmod>);
+  add("solve", size, beam, solve<Use::in_double>);
+  add("solve, single precision", size, beam, solve<Use::in_single>);
+  add("solve, CHOLMOD", size, beam, solve<Use::cholmod>);
+}
+
 struct Size {
   int across;
   const char* name;
@@ -164,10 +183,10 @@ void register_kernels(bool large) {
     add("M + w D + w K", n, damped, combine);
     add("elastic energy", n, plain, energy);
     add_threaded("elastic energy", n, plain, energy);
-    add("factorisation", n, plain, factorisation);
-    add("solve", n, plain, solve);
+    add_solvers(n, plain);
     add("symbolic analysis", n, plain, analysis);
   }
+  add_solvers("4,005 quadratic", std::make_shared<LazyBeam>(Beam{false, 2}, 3));
   const auto quadratic = std::make_shared<LazyBeam>(Beam{false, 2}, 4);
   add("force, quadratic elements", "6,480", quadratic, force);
   add("tangent, quadratic elements", "6,480", quadratic, tangent);
@@ -182,8 +201,8 @@ void register_growth() {
     add("force", n, beam, force);
     add("tangent", n, beam, tangent);
     add("symbolic analysis", n, beam, analysis);
-    add("factorisation", n, beam, factorisation);
-    add("solve", n, beam, solve);
+    add("factorisation", n, beam, factorisation<Use::in_double>);
+    add("solve", n, beam, solve<Use::in_double>);
   }
 }
 

@@ -141,7 +141,7 @@ const Spec<Comparison>& Comparison::spec() {
                {.range = {0, 1, true, true}})
           .key("steps", &Comparison::steps, "Step sizes for the fixed-step methods.", {.unit = "s", .range = kPositive})
           .key("vary", &Comparison::vary,
-               "Values of further keys by path, in all combinations: {integrator.linear_solver: [klu, cholmod]}. Keys "
+               "Values of further keys by path, in all combinations: {integrator.linear_solver: [klu, cholesky]}. Keys "
                "of 'integrator' make further methods, all others further scenes.")
           .key("quantities", &Comparison::quantities,
                "Names of quantities whose errors are measured too, relative to their largest magnitude over time (see "
