@@ -150,11 +150,10 @@ class Cholesky : public LinearSolver {
   Vector rhs_, residual_, correction_;
 };
 
-const bool cholesky_registered =
-    register_solver("cholesky", {"Sparse Cholesky of our own on the reduced n x n matrix, for symmetric tangents. "
-                                 "Corrections of Newton's method use "
-                                 "single precision where that suffices.",
-                                 false, [](const std::string&) { return std::make_unique<Cholesky>(); }});
+const bool cholesky_registered = register_solver(
+    "cholesky", {"Supernodal sparse Cholesky on the reduced n x n matrix; symmetric tangents. Corrections of Newton's "
+                 "method use single precision where that suffices.",
+                 false, [](const std::string&) { return std::make_unique<Cholesky>(); }});
 
 }  // namespace
 }  // namespace orthodyn
