@@ -11,10 +11,9 @@
 
 namespace orthodyn {
 
-// The numbers 0, 1, ... in groups: group g has items[start[g]] to items[start[g + 1] - 1], ascending.
+// Integers in groups: group g has items[begin(g)] to items[end(g) - 1], ascending.
 struct Groups {
   std::vector<int> start, items;
-  int count() const { return static_cast<int>(start.size()) - 1; }
   int begin(int g) const { return start[static_cast<std::size_t>(g)]; }
   int end(int g) const { return start[static_cast<std::size_t>(g) + 1]; }
 };
