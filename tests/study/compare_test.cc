@@ -167,7 +167,7 @@ TEST_F(Compare, TheCsvHoldsTheNumbersOfTheJson) {
     EXPECT_EQ(std::stod(values[column("wall.median [s]")]), point.at("wall").at("median"));
     EXPECT_EQ(std::stod(values[column("error.displacement.l2")]), point.at("errors").at("displacement").at("l2"));
     EXPECT_EQ(std::stol(values[column("steps")]), point.at("statistics").at("steps"));
-    EXPECT_EQ(values[column("method")], point.at("method"));
+    EXPECT_EQ(values[column("method")], point.at("method").get<std::string>());
   }
   EXPECT_FALSE(std::getline(csv, row));
 }
