@@ -71,7 +71,7 @@ class Cholesky : public LinearSolver {
 
   std::size_t factor_bytes() const override {
     if (!supernodes_) return 0;
-    const bool single = double_ ? false : single_ || wants_single();
+    const bool single = !double_ && (single_ || wants_single());
     return supernodes_->bytes() +
            (single ? SupernodalFactor<float>::bytes(*supernodes_) : SupernodalFactor<double>::bytes(*supernodes_));
   }
@@ -125,7 +125,7 @@ class Cholesky : public LinearSolver {
       residual_ = rhs_ - residual_;
       single_->solve(residual_, correction_);
       const double error = correction_.dot(residual_);
-      if (!std::isfinite(error)) return energy != energy;  // NaN in, NaN out
+      if (!std::isfinite(error)) return std::isnan(energy);  // NaN in, NaN out
       x += correction_;
       if (error <= square(kSingleTolerance) * energy) {
         if (k == 0 && energy > 0) is_accurate_ = true;

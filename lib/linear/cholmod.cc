@@ -1,5 +1,4 @@
 // CHOLMOD (Davis et al.): sparse Cholesky, simplicial for small and supernodal for large factors.
-#include <cholmod.h>
 #include <fmt/format.h>
 
 #include <optional>
@@ -8,14 +7,12 @@
 #include "lib/core/memory.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
+#include "lib/linear/cholmod_view.h"
 #include "lib/linear/gathered_solver.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
 namespace {
-
-// Below this number of unknowns, minimum degree gives as little fill as nested dissection and is faster.
-constexpr int kNestedDissectionFrom = 50'000;
 
 enum class Definite { yes, no };
 
@@ -52,7 +49,7 @@ class Cholmod : public LinearSolver {
     common_.method[0].ordering = dissect ? CHOLMOD_METIS : CHOLMOD_AMD;
     common_.postorder = 1;
     cholmod_free_factor(&factor_, &common_);
-    cholmod_sparse view = view_of(nullptr);
+    cholmod_sparse view = cholmod_view(pattern, nullptr);
     factor_ = cholmod_analyze(&view, &common_);
     if (!factor_ && dissect && common_.status != CHOLMOD_OUT_OF_MEMORY) {  // CHOLMOD was built without METIS
       common_.method[0].ordering = CHOLMOD_AMD;
@@ -72,7 +69,7 @@ class Cholmod : public LinearSolver {
       require_memory_for_factor(
           factor_bytes(), "the Cholesky factor",
           "use a coarser mesh, or an explicit integrator (central_differences), which needs no factor");
-    cholmod_sparse view = view_of(values);
+    cholmod_sparse view = cholmod_view(*pattern_, values);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF)
       return definite_ == Definite::yes ? FactorStatus::not_positive_definite : FactorStatus::singular;
@@ -117,22 +114,6 @@ class Cholmod : public LinearSolver {
  private:
   std::optional<int> most_threads() const {
     return pattern_->n < kBlasThreadsFrom || blas_uses_openmp() ? std::optional(1) : std::nullopt;
-  }
-
-  // CHOLMOD takes non-const pointers but only reads.
-  cholmod_sparse view_of(const double* values) const {
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(pattern_->n);
-    view.nzmax = pattern_->row.size();
-    view.p = const_cast<int*>(pattern_->column_start.data());
-    view.i = const_cast<int*>(pattern_->row.data());
-    view.x = const_cast<double*>(values);
-    view.stype = -1;  // lower triangle
-    view.itype = CHOLMOD_INT;
-    view.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
-    return view;
   }
 
   // The simplicial factorisation is L D L^T, which continues past a negative pivot.

@@ -111,8 +111,7 @@ void SupernodalFactor<T>::take_updates(int s, Columns columns, const std::vector
     for (int r = 0; r < below; ++r)
       workspace.rows[static_cast<std::size_t>(r)] = position[static_cast<std::size_t>(begin[r])];
     workspace.dense.subtract_product(below, static_cast<int>(end - begin), supernodes_.num_columns(update.from),
-                                     block(update.from) + (begin - from),
-                                     static_cast<std::size_t>(supernodes_.num_rows(update.from)),
+                                     block(update.from) + (begin - from), static_cast<std::size_t>(num_rows),
                                      {block(s), stride, workspace.rows.data(), workspace.rows.data()});
   }
 }
@@ -120,8 +119,7 @@ void SupernodalFactor<T>::take_updates(int s, Columns columns, const std::vector
 template <class T>
 bool SupernodalFactor<T>::finish_supernode(int s, Workspace& workspace) {
   const int rows = supernodes_.num_rows(s);
-  return workspace.dense.factor(rows, supernodes_.num_columns(s), block(s),
-                                static_cast<std::size_t>(supernodes_.num_rows(s)));
+  return workspace.dense.factor(rows, supernodes_.num_columns(s), block(s), static_cast<std::size_t>(rows));
 }
 
 template <class T>
@@ -133,16 +131,14 @@ void SupernodalFactor<T>::solve(const ConstVectorRef& b, VectorRef x) {
     const int m = supernodes_.num_rows(s), n = supernodes_.num_columns(s);
     const int* rows = supernodes_.rows_of(s);
     std::fill(below_.begin(), below_.begin() + (m - n), T(0));
-    DenseBlocks<T>::solve_forward(m, n, block(s), static_cast<std::size_t>(supernodes_.num_rows(s)),
-                                  y_.data() + rows[0], below_.data());
+    DenseBlocks<T>::solve_forward(m, n, block(s), static_cast<std::size_t>(m), y_.data() + rows[0], below_.data());
     for (int i = n; i < m; ++i) y_[static_cast<std::size_t>(rows[i])] -= below_[static_cast<std::size_t>(i - n)];
   }
   for (int s = supernodes_.count() - 1; s >= 0; --s) {
     const int m = supernodes_.num_rows(s), n = supernodes_.num_columns(s);
     const int* rows = supernodes_.rows_of(s);
     for (int i = n; i < m; ++i) below_[static_cast<std::size_t>(i - n)] = y_[static_cast<std::size_t>(rows[i])];
-    DenseBlocks<T>::solve_backward(m, n, block(s), static_cast<std::size_t>(supernodes_.num_rows(s)),
-                                   y_.data() + rows[0], below_.data());
+    DenseBlocks<T>::solve_backward(m, n, block(s), static_cast<std::size_t>(m), y_.data() + rows[0], below_.data());
   }
   for (std::size_t i = 0; i < order.size(); ++i) x[order[i]] = static_cast<double>(y_[i]) * (scale_ / scale);
 }

@@ -1,20 +1,19 @@
 #include "lib/linear/supernodes.h"
 
-#include <cholmod.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/linear/cholmod_view.h"
 
 namespace orthodyn {
 
 namespace {
-
-// Below this number of unknowns, minimum degree gives as little fill as nested dissection and is faster.
-constexpr int kNestedDissectionFrom = 50'000;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -66,16 +65,7 @@ class Orderer {
  private:
   bool analyze(const Pattern& pattern, int method) {
     common_.method[0].ordering = method;
-    cholmod_sparse view{};
-    view.nrow = view.ncol = at(pattern.n);
-    view.nzmax = pattern.row.size();
-    view.p = const_cast<int*>(pattern.column_start.data());  // CHOLMOD only reads
-    view.i = const_cast<int*>(pattern.row.data());
-    view.stype = -1;  // lower triangle
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_PATTERN;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
+    cholmod_sparse view = cholmod_view(pattern, nullptr);
     factor_ = cholmod_analyze(&view, &common_);
     return factor_ != nullptr;
   }
