@@ -52,7 +52,7 @@ std::string exported_plugins() {
   return plugins ? std::string("export ") + kPluginsVariable + "=" + shell_quoted(plugins) + "\n" : "";
 }
 
-// Memory of a task (bytes) in addition to that of its point: the process that starts the point, and the program's code.
+// A task needs more memory than its point, for the process that starts the point and for the program's code. Bytes.
 constexpr double kMargin = 512e6;
 
 std::string array_command(const ArrayJob& job) {

@@ -1,7 +1,7 @@
 """Arrays as text in an HTML page: quantised, compressed by gzip, in base64.
 
-The reader is web/src/blocks.ts. Numbers are little-endian. All values of a component precede those of the next (planes),
-which compresses better. Kinds:
+The reader is web/src/blocks.ts. Numbers are little-endian. The values are sorted by component, because
+this order compresses better. Kinds:
   u32     unsigned integers
   f32     single precision
   linear  uint16 between the smallest and the largest value of each component; error: 8e-6 of the difference of the two
