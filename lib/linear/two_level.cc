@@ -1,36 +1,31 @@
 #include "lib/linear/two_level.h"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <utility>
 
 namespace orthodyn {
 
-class TwoLevelSolver::Smoother {
- public:
-  explicit Smoother(const Eigen::Map<const SparseMatrix>& A) { factor_.compute(SparseMatrix(A)); }
-  Vector operator()(const Vector& r) const { return factor_.solve(r); }
-  bool ok() const { return factor_.info() == Eigen::Success; }
-
- private:
-  Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
-};
-
-TwoLevelSolver::TwoLevelSolver(const Pattern& pattern, const std::vector<double>& values, CoarseSolution coarse)
-    : pattern_(pattern),
-      values_(values),
-      coarse_(std::move(coarse)),
-      smoother_(std::make_unique<Smoother>(pattern.matrix(values.data()))) {
-  if (!smoother_->ok()) throw IndefiniteMatrix("the matrix has no incomplete factor");
+// A symmetric sweep of Gauss and Seidel, which needs no set-up: r -> (D + L)^-T D (D + L)^-1 r for A = L + D + L^T.
+Vector TwoLevelSolver::smoothed(const Vector& r) const {
+  const auto lower = pattern_.matrix(values_.data());
+  Vector z = lower.triangularView<Eigen::Lower>().solve(r);
+  z.array() *= diagonal_.array();
+  lower.transpose().triangularView<Eigen::Upper>().solveInPlace(z);
+  return z;
 }
 
-TwoLevelSolver::~TwoLevelSolver() = default;
+TwoLevelSolver::TwoLevelSolver(const Pattern& pattern, const std::vector<double>& values, CoarseSolution coarse)
+    : pattern_(pattern), values_(values), coarse_(std::move(coarse)), diagonal_(pattern.n) {
+  for (int j = 0; j < pattern.n; ++j)  // the first entry of a column of the lower triangle
+    diagonal_[j] = values[static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(j)])];
+  if (!(diagonal_.array() > 0).all()) throw IndefiniteMatrix("the matrix has a diagonal entry that is not positive");
+}
 
 TwoLevelSolver::Solution TwoLevelSolver::solve(const ConstVectorRef& b, double accuracy, int max_iterations) const {
   constexpr int kLastGains = 4;  // iterations whose gains are compared with the energy
   Solution out{Vector::Zero(b.size())};
   Vector r = b, Ap(b.size());
-  const auto preconditioned = [&] { return Vector((*smoother_)(r) + coarse_(r)); };
+  const auto preconditioned = [&] { return Vector(smoothed(r) + coarse_(r)); };
   Vector z = preconditioned(), p = z;
   double rz = r.dot(z);
   std::vector<double> gains;

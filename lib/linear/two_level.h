@@ -1,13 +1,13 @@
 // Solves A x = b for a symmetric positive definite A on a fine space that contains a coarse space: conjugate gradients,
-// preconditioned by the coarse solution plus an incomplete factor of A (two-level additive Schwarz method; Smith,
-// Bjorstad & Gropp 1996, Domain Decomposition, ch. 2).
+// preconditioned by the coarse solution plus a symmetric sweep of Gauss and Seidel (two-level additive Schwarz method;
+// Smith, Bjorstad & Gropp 1996, Domain Decomposition, ch. 2).
 //
 // Each iteration increases the energy x^T A x (Hestenes & Stiefel 1952). The iteration stops when the last gains are
 // small. The energy found is a lower bound of the exact energy.
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <vector>
 
 #include "lib/linear/solver.h"
 
@@ -18,9 +18,9 @@ class TwoLevelSolver {
   // Returns the coarse solution P A_coarse^-1 P^T b for a right side b of the fine space, with the prolongation P.
   using CoarseSolution = std::function<Vector(const ConstVectorRef&)>;
 
-  // `values`: entries of A on the pattern. `pattern` and `values` must outlive this object.
+  // `values`: entries of A on the symmetric pattern. `pattern` and `values` must outlive this object. Throws
+  // IndefiniteMatrix if a diagonal entry is not positive.
   TwoLevelSolver(const Pattern& pattern, const std::vector<double>& values, CoarseSolution coarse);
-  ~TwoLevelSolver();
 
   struct Solution {
     Vector x;
@@ -32,11 +32,12 @@ class TwoLevelSolver {
   Solution solve(const ConstVectorRef& b, double accuracy, int max_iterations) const;
 
  private:
-  class Smoother;
+  Vector smoothed(const Vector& r) const;
+
   const Pattern& pattern_;
   const std::vector<double>& values_;
   CoarseSolution coarse_;
-  std::unique_ptr<Smoother> smoother_;
+  Vector diagonal_;
 };
 
 }  // namespace orthodyn
