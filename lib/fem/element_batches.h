@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "lib/element/batch.h"
@@ -24,6 +25,8 @@ class ElementBatches {
  public:
   static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes, kPoints = E::kPoints;
   using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
+  // One column per node but the first.
+  using Columns = Eigen::Matrix<Batch, 3, kNodes - 1>;
 
   // `axes` are in the order of `cells`. The mesh need not outlive this object.
   ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes);
@@ -40,9 +43,12 @@ class ElementBatches {
   // Data of a whole batch.
   ElementPoint<kNodes, Batch> points(int batch, int point) const;
 
+  // u_a - u_0 for the nodes a = 1, 2, ... of a batch.
+  Columns differences(int batch, const NodalVector& u) const;
+
   // H Q = (F - I) Q at a point of a batch or of an element, with the material axes as columns of Q. `u`: nodal
-  // displacements; for nodal velocities the result is dF/dt Q.
-  Mat3T<Batch> gradients(int batch, int point, const NodalVector& u) const;
+  // displacements, for a batch their differences(); for velocities the result is dF/dt Q.
+  Mat3T<Batch> gradients(int batch, int point, const Columns& u) const;
   Mat3 gradient(int k, int p, const NodalVector& u) const { return point(k, p).gradient(differences_of(nodes(k), u)); }
 
   // Volume of a point, m^3; zero for padding.
@@ -50,14 +56,16 @@ class ElementBatches {
   double volume(int k, int point) const { return at_point(k / kLanes, point).volume[lane(k)]; }
 
   // Adds the nodal forces -V dPsi/dx (N) of a point of a batch or of an element to f, where V is the point's volume and
-  // Psi the energy density. `P`: the stress times the axes, P Q (Pa).
-  void add_forces(int batch, int point, const Mat3T<Batch>& P, NodalVector& f) const;
+  // Psi the energy density. `P`: the stress times the axes, P Q (Pa). For a batch, f has the forces on the nodes 1, 2,
+  // ...; the `first` call sets it, and scatter() adds it to the forces on all nodes.
+  void add_forces(int batch, int point, const Mat3T<Batch>& P, bool first, Columns& f) const;
+  void scatter(int batch, const Columns& batch_force, NodalVector& f) const;
   void add_force(int k, int point, const Mat3& P, NodalVector& f) const;
 
  private:
-  static constexpr int kGradients = 3 * (kNodes - 1), kCoordinates = 3 * kNodes;
+  static constexpr int kGradients = 3 * (kNodes - 1);
   using GradientBatch = Eigen::Matrix<Batch, kNodes - 1, 3>;
-  using DifferenceBatch = Eigen::Matrix<Batch, 3, kNodes - 1>;
+  using Lanes = std::make_index_sequence<static_cast<std::size_t>(kLanes)>;
 
   struct Point {
     alignas(64) double B[kGradients][kLanes];  // column-major
@@ -87,7 +95,7 @@ ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int
     const bool filler = k >= size_;
     const int element = filler ? size_ - 1 : k;
     const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(element)]);
-    const NodeDifferences<kNodes> rest = differences<kNodes>(mesh.positions(cell));
+    const NodeDifferences<kNodes> rest = orthodyn::differences<kNodes>(mesh.positions(cell));
     One& one = batches_[static_cast<std::size_t>(k / kLanes)];
     std::copy_n(mesh.cells[cell].begin(), kNodes, one.nodes[lane(k)].begin());
     for (int p = 0; p < kPoints; ++p) {
@@ -124,53 +132,69 @@ auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& u)
   return d;
 }
 
-// gradients() and add_forces() are compiled separately from the laws' kernels, with which they would compete for
-// registers.
+// Component i of one node of each lane.
+template <std::size_t... lane>
+Batch gathered(const double* const* nodes, int i, std::index_sequence<lane...>) {
+  return Batch(Batch::Pack{nodes[lane][i]...});
+}
+
+// The following functions are compiled separately from the laws' kernels, with which they would compete for registers.
 template <Element E>
-[[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p,
-                                                                          const NodalVector& u) const {
+[[gnu::noipa]] ORTHODYN_FLATTEN auto ElementBatches<E>::differences(int batch, const NodalVector& u) const -> Columns {
   const One& one = batches_[static_cast<std::size_t>(batch)];
-  alignas(64) double corner[kCoordinates][kLanes];
-  for (std::size_t l = 0; l < kLanes; ++l)
-    for (std::size_t a = 0; a < kNodes; ++a) {
-      const double* node = u.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
-      for (std::size_t i = 0; i < 3; ++i) corner[3 * a + i][l] = node[i];
-    }
-  const Point& point = at_point(batch, p);
-  DifferenceBatch d;
-  GradientBatch B;
-  for (int a = 0; a < kNodes - 1; ++a)
-    for (int i = 0; i < 3; ++i) {
-      d(i, a) = Batch::load(corner[3 * a + 3 + i]) - Batch::load(corner[i]);
-      B(a, i) = Batch::load(point.B[(kNodes - 1) * i + a]);
-    }
-  return d.lazyProduct(B);
+  const auto at_node = [&](std::size_t a) {
+    std::array<const double*, kLanes> node;
+    for (std::size_t l = 0; l < kLanes; ++l) node[l] = u.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
+    return Vec3T<Batch>(gathered(node.data(), 0, Lanes{}), gathered(node.data(), 1, Lanes{}),
+                        gathered(node.data(), 2, Lanes{}));
+  };
+  const Vec3T<Batch> first = at_node(0);
+  Columns out;
+  for (std::size_t a = 1; a < kNodes; ++a) out.col(static_cast<int>(a) - 1) = at_node(a) - first;
+  return out;
 }
 
 template <Element E>
-[[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P,
-                                                                   NodalVector& f) const {
-  const One& one = batches_[static_cast<std::size_t>(batch)];
+[[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p, const Columns& u) const {
   const Point& point = at_point(batch, p);
-  const Batch volume = Batch::load(point.volume);
-  GradientBatch B;
-  for (int i = 0; i < kGradients; ++i) B(i) = -volume * Batch::load(point.B[i]);
-  const DifferenceBatch forces = P.lazyProduct(B.transpose());
-  alignas(64) double corner[kCoordinates][kLanes];
-  for (int i = 0; i < 3; ++i) {
-    Batch sum = forces(i, 0);
-    forces(i, 0).store(corner[3 + i]);
-    for (int a = 1; a < kNodes - 1; ++a) {
-      forces(i, a).store(corner[3 * a + 3 + i]);
-      sum += forces(i, a);
+  Mat3T<Batch> out = Mat3T<Batch>::Zero();
+  for (int a = 0; a < kNodes - 1; ++a)
+    for (int j = 0; j < 3; ++j) {
+      const Batch B = Batch::load(point.B[(kNodes - 1) * j + a]);
+      for (int i = 0; i < 3; ++i) out(i, j) += u(i, a) * B;
     }
-    (-sum).store(corner[i]);
+  return out;
+}
+
+template <Element E>
+[[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P, bool first,
+                                                                   Columns& f) const {
+  const Point& point = at_point(batch, p);
+  const Mat3T<Batch> stress = -Batch::load(point.volume) * P;
+  for (int a = 0; a < kNodes - 1; ++a) {
+    std::array<Batch, 3> B;
+    for (int j = 0; j < 3; ++j) B[static_cast<std::size_t>(j)] = Batch::load(point.B[(kNodes - 1) * j + a]);
+    for (int i = 0; i < 3; ++i) {
+      const Batch force = stress(i, 0) * B[0] + stress(i, 1) * B[1] + stress(i, 2) * B[2];
+      f(i, a) = first ? force : f(i, a) + force;
+    }
   }
-  for (std::size_t l = 0; l < kLanes; ++l)
-    for (std::size_t a = 0; a < kNodes; ++a) {
+}
+
+template <Element E>
+[[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::scatter(int batch, const Columns& batch_force,
+                                                                NodalVector& f) const {
+  const One& one = batches_[static_cast<std::size_t>(batch)];
+  const auto add = [&](std::size_t a, const Vec3T<Batch>& force) {
+    for (std::size_t l = 0; l < kLanes; ++l) {
       double* node = f.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
-      for (std::size_t i = 0; i < 3; ++i) node[i] += corner[3 * a + i][l];
+      for (int i = 0; i < 3; ++i) node[i] += force[i][static_cast<int>(l)];
     }
+  };
+  Vec3T<Batch> sum = batch_force.col(0);
+  for (int a = 1; a < kNodes - 1; ++a) sum += batch_force.col(a);
+  add(0, -sum);
+  for (std::size_t a = 1; a < kNodes; ++a) add(a, batch_force.col(static_cast<int>(a) - 1));
 }
 
 template <Element E>

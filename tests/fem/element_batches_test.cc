@@ -34,7 +34,9 @@ void expect_copies_of_the_last_element(int order) {
   Mat3T<Batch> P;
   P.fill(Batch(std::numeric_limits<double>::quiet_NaN()));
   NodalVector f = NodalVector::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  elements.add_forces(last, 0, P, f);
+  typename ElementBatches<E>::Columns force;
+  elements.add_forces(last, 0, P, true, force);
+  elements.scatter(last, force, f);
   std::set<int> own;
   for (int l = 0; l < elements.lanes(last); ++l)
     for (const int node : elements.nodes(last * Batch::kLanes + l)) own.insert(node);

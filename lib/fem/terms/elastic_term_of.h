@@ -51,14 +51,21 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for_each_batch_point([&](int b, int p) {
-      const Mat3T<Batch> H = elements_.gradients(b, p, s.u);
-      Mat3T<Batch> rate;
-      if (damped()) rate = elements_.gradients(b, p, s.v);
-      Batch::Mask good;
-      const Mat3T<Batch> P = law_.batch_stress(H, axes().batch(b, p), damped() ? &rate : nullptr, region_.beta, good);
-      if (all(good)) elements_.add_forces(b, p, P, f);
-      else add_forces_one_by_one(b, p, s, f);
+    loops_.for_each_batch([&](int b) {
+      const Columns u = elements_.differences(b, s.u);
+      Columns v, force;
+      bool first = true;
+      if (damped()) v = elements_.differences(b, s.v);
+      for (int p = 0; p < E::kPoints; ++p) {
+        Mat3T<Batch> rate;
+        if (damped()) rate = elements_.gradients(b, p, v);
+        Batch::Mask good;
+        const Mat3T<Batch> P = law_.batch_stress(elements_.gradients(b, p, u), axes().batch(b, p),
+                                                 damped() ? &rate : nullptr, region_.beta, good);
+        if (all(good)) elements_.add_forces(b, p, P, std::exchange(first, false), force);
+        else add_forces_one_by_one(b, p, s, f);
+      }
+      if (!first) elements_.scatter(b, force, f);
     });
   }
 
@@ -66,12 +73,18 @@ class ElasticTermOf final : public ElasticTerm {
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
     if constexpr (Law::kHasEnergy)
-      for_each_batch_point([&](int b, int p) {
-        Batch::Mask good;
-        const Mat3T<Batch> P = law_.batch_mean_stress(elements_.gradients(b, p, s0.u), elements_.gradients(b, p, s1.u),
-                                                      axes().batch(b, p), good);
-        if (all(good)) elements_.add_forces(b, p, P, f);
-        else add_mean_forces_one_by_one(b, p, s0, s1, f);
+      loops_.for_each_batch([&](int b) {
+        const Columns u0 = elements_.differences(b, s0.u), u1 = elements_.differences(b, s1.u);
+        Columns force;
+        bool first = true;
+        for (int p = 0; p < E::kPoints; ++p) {
+          Batch::Mask good;
+          const Mat3T<Batch> P = law_.batch_mean_stress(elements_.gradients(b, p, u0), elements_.gradients(b, p, u1),
+                                                        axes().batch(b, p), good);
+          if (all(good)) elements_.add_forces(b, p, P, std::exchange(first, false), force);
+          else add_mean_forces_one_by_one(b, p, s0, s1, f);
+        }
+        if (!first) elements_.scatter(b, force, f);
       });
   }
 
@@ -94,24 +107,32 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double energy(const NodalState& s) const override {
-    return integrate(
-        [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_energy(elements_.gradients(b, p, s.u), axes().batch(b, p), good);
-        },
-        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.u), axes().of(k, p)); });
+    return loops_.sum([&](int b) {
+      const Columns u = elements_.differences(b, s.u);
+      return integral(
+          b,
+          [&](int p, Batch::Mask& good) {
+            return law_.batch_energy(elements_.gradients(b, p, u), axes().batch(b, p), good);
+          },
+          [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.u), axes().of(k, p)); });
+    });
   }
 
   double dissipation(const NodalState& s) const override {
     if (!damped()) return 0;
-    return integrate(
-        [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_dissipation(elements_.gradients(b, p, s.u), axes().batch(b, p),
-                                        elements_.gradients(b, p, s.v), region_.beta, good);
-        },
-        [&](int k, int p) {
-          return law_.dissipation(elements_.gradient(k, p, s.u), axes().of(k, p), elements_.gradient(k, p, s.v),
-                                  region_.beta);
-        });
+    return loops_.sum([&](int b) {
+      const Columns u = elements_.differences(b, s.u), v = elements_.differences(b, s.v);
+      return integral(
+          b,
+          [&](int p, Batch::Mask& good) {
+            return law_.batch_dissipation(elements_.gradients(b, p, u), axes().batch(b, p),
+                                          elements_.gradients(b, p, v), region_.beta, good);
+          },
+          [&](int k, int p) {
+            return law_.dissipation(elements_.gradient(k, p, s.u), axes().of(k, p), elements_.gradient(k, p, s.v),
+                                    region_.beta);
+          });
+    });
   }
 
   int size() const override { return static_cast<int>(region_.cells.size()); }
@@ -127,10 +148,9 @@ class ElasticTermOf final : public ElasticTerm {
 
   Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const override {
     Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, size() * E::kPoints);
-    for_each_batch_point([&](int b, int p) {
+    for_each_gradient(s.u, [&](int b, int p, const Mat3T<Batch>& H) {
       Batch::Mask good;
-      const auto all_lanes =
-          voigt_strain<Batch>(law_.batch_strain(elements_.gradients(b, p, s.u), axes().batch(b, p), good));
+      const auto all_lanes = voigt_strain<Batch>(law_.batch_strain(H, axes().batch(b, p), good));
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
         auto own = out.col(k * E::kPoints + p);
@@ -143,8 +163,7 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double largest_green_strain(const NodalState& s) const override {
-    const auto smallest =
-        loops_.smallest([&](int b) { return batch_minimum(b, [&](int p) { return -green_squares(b, p, s); }); });
+    const auto smallest = smallest_of_points(s.u, [](const Mat3T<Batch>& F) { return -green_square(F); });
     return smallest.batch < 0 ? 0 : 0.5 * std::sqrt(-smallest.value);
   }
 
@@ -153,9 +172,9 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   void observe_points(const NodalState& s, const VisitPoint& visit) const override {
-    for_each_batch_point([&](int b, int p) {
+    for_each_gradient(s.u, [&](int b, int p, const Mat3T<Batch>& H) {
       Batch::Mask good;
-      const auto all = law_.batch_observe(elements_.gradients(b, p, s.u), axes().batch(b, p), good);
+      const auto all = law_.batch_observe(H, axes().batch(b, p), good);
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
         visit(k, p, good[l] ? lane_of(all, l) : observe_point(k, p, s));
@@ -174,8 +193,7 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   SmallestDetF smallest_det_F(const NodalState& s) const override {
-    const auto batch =
-        loops_.smallest([&](int b) { return batch_minimum(b, [&](int p) { return determinants(b, p, s); }); });
+    const auto batch = smallest_of_points(s.u, [](const Mat3T<Batch>& F) { return determinant(F); });
     SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
     if (batch.batch < 0) return smallest;
     loops_.for_each_of(batch.batch, [&](int k) {
@@ -205,13 +223,13 @@ class ElasticTermOf final : public ElasticTerm {
 
  private:
   using Form = typename Law::Form;
+  using Columns = typename ElementBatches<E>::Columns;
 
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
-  // |F^T F - I|^2 (Frobenius norm) of a batch at one point.
-  ORTHODYN_FLATTEN Batch green_squares(int b, int p, const NodalState& s) const {
-    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+  // |F^T F - I|^2 (Frobenius norm).
+  ORTHODYN_FLATTEN static Batch green_square(const Mat3T<Batch>& F) {
     Batch square(0);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -222,45 +240,47 @@ class ElasticTermOf final : public ElasticTerm {
     return square;
   }
 
-  // Minimum of of_point(p) over the points and elements of a batch; infinite if all are NaN.
-  template <class OfPoint>
-  double batch_minimum(int b, OfPoint&& of_point) const {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int p = 0; p < E::kPoints; ++p) {
-      const Batch all = of_point(p);
-      for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, all[l]);
-    }
-    return smallest;
-  }
-
-  ORTHODYN_FLATTEN Batch determinants(int b, int p, const NodalState& s) const {
-    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+  ORTHODYN_FLATTEN static Batch determinant(const Mat3T<Batch>& F) {
     return F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) - F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
            F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
   }
 
+  // Calls visit(batch, point, H Q) for all batches and points.
   template <class Visit>
-  void for_each_batch_point(Visit&& visit) const {
+  void for_each_gradient(const NodalVector& u, Visit&& visit) const {
     loops_.for_each_batch([&](int b) {
-      for (int p = 0; p < E::kPoints; ++p) visit(b, p);
+      const Columns differences = elements_.differences(b, u);
+      for (int p = 0; p < E::kPoints; ++p) visit(b, p, elements_.gradients(b, p, differences));
     });
   }
 
-  // Volume integral of a density. of_batch(b, p, good) gives it for a batch, of_element(k, p) for the elements of a
-  // batch whose lanes are not all good.
-  template <class OfBatch, class OfElement>
-  double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
-    return loops_.sum([&](int b) {
-      double sum = 0;
+  // The smallest value of a function of F Q over all points and elements, and its batch.
+  template <class OfF>
+  BatchLoops::Smallest smallest_of_points(const NodalVector& u, OfF&& of_F) const {
+    return loops_.smallest([&](int b) {
+      const Columns differences = elements_.differences(b, u);
+      double smallest = std::numeric_limits<double>::infinity();
       for (int p = 0; p < E::kPoints; ++p) {
-        Batch::Mask good;
-        const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
-        if (all(good))
-          for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
-        else loops_.for_each_of(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
+        const Batch all = of_F(deformation_gradient<Batch>(elements_.gradients(b, p, differences), axes().batch(b, p)));
+        for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, all[l]);
       }
-      return sum;
+      return smallest;
     });
+  }
+
+  // Volume integral of a density over a batch. of_batch(p, good) gives it for all lanes, of_element(k, p) for the
+  // elements of a batch whose lanes are not all good.
+  template <class OfBatch, class OfElement>
+  double integral(int b, OfBatch&& of_batch, OfElement&& of_element) const {
+    double sum = 0;
+    for (int p = 0; p < E::kPoints; ++p) {
+      Batch::Mask good;
+      const Batch product = elements_.volumes(b, p) * of_batch(p, good);
+      if (all(good))
+        for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+      else loops_.for_each_of(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
+    }
+    return sum;
   }
 
   // Mean of H over the element's volume, times the mean axes.
@@ -298,11 +318,12 @@ class ElasticTermOf final : public ElasticTerm {
   // version.
   bool add_batch_tangent(int b, const NodalState& s, TangentKind kind, double* K, double* D) const {
     if constexpr (requires { typename Law::BatchForm; }) {
+      const Columns u = elements_.differences(b, s.u);
       ElementBlocks<E::kNodes, Batch> stiffness, damping;
       for (int p = 0; p < E::kPoints; ++p) {
         typename Law::BatchForm damping_form;
         Batch::Mask good;
-        const auto form = law_.batch_tangent(elements_.gradients(b, p, s.u), axes().batch(b, p), kind, region_.beta,
+        const auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
                                              D ? &damping_form : nullptr, good);
         if (!all(good)) return false;
         const auto points = elements_.points(b, p);
