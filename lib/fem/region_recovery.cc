@@ -178,27 +178,28 @@ SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& a
 
 template <int kCoefficients>
 SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const {
-  using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
   using Row = Eigen::Matrix<double, 1, 6>;
+  using Monomials = Eigen::Matrix<double, 1, kCoefficients>;
   SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
+  Eigen::Matrix<double, Eigen::Dynamic, kCoefficients> at;  // monomials and values at a patch's points, one row each
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values;
   for (const auto& [row, elements, fit, middles] : patches_) {
-    const Coefficients means = fit.means;
-    const auto relative = [&](const Vec3& place) -> Coefficients {
-      return monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - means;
+    const auto relative = [&](const Vec3& place) -> Monomials {
+      return (monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - fit.means).transpose();
     };
-    Row sum = Row::Zero();
-    Eigen::Matrix<double, kCoefficients, 6> moments = Eigen::Matrix<double, kCoefficients, 6>::Zero();
+    const Eigen::Index count = per_element_ * std::ssize(elements);
+    at.resize(count, kCoefficients);
+    values.resize(count, 6);
+    Eigen::Index i = 0;
     for (const int element : elements)
-      for (Eigen::Index point = per_element_ * element; point < per_element_ * (element + 1); ++point) {
-        const Row value = at_points.row(point);
-        sum += value;
-        moments += relative(places_.col(point)) * value;
+      for (Eigen::Index point = per_element_ * element; point < per_element_ * (element + 1); ++point, ++i) {
+        at.row(i) = relative(places_.col(point));
+        values.row(i) = at_points.row(point);
       }
-    const Row mean = sum / static_cast<double>(per_element_ * static_cast<Eigen::Index>(elements.size()));
-    const Eigen::Matrix<double, kCoefficients, 6> slopes = fit.inverse * moments;
+    const Row mean = values.colwise().mean();
+    const Eigen::Matrix<double, kCoefficients, 6> slopes = fit.inverse * at.transpose().lazyProduct(values).eval();
     const auto value_at = [&](int node) -> Row {
-      return mean + relative(mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])]).transpose() *
-                        slopes;
+      return mean + relative(mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])]) * slopes;
     };
     out.row(row) = value_at(row);
     for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);
