@@ -1,6 +1,7 @@
 // Solves A x = b for a symmetric positive definite A on a fine space that contains a coarse space: conjugate gradients,
 // preconditioned by the coarse solution plus a symmetric sweep of Gauss and Seidel (two-level additive Schwarz method;
-// Smith, Bjorstad & Gropp 1996, Domain Decomposition, ch. 2).
+// Smith, Bjorstad & Gropp 1996, Domain Decomposition, ch. 2). Several right-hand sides are solved together, which reads
+// A once for four of them.
 //
 // Each iteration increases the energy x^T A x (Hestenes & Stiefel 1952). The iteration stops when the last gains are
 // small. The energy found is a lower bound of the exact energy.
@@ -15,7 +16,7 @@ namespace orthodyn {
 
 class TwoLevelSolver {
  public:
-  // Returns the coarse solution P A_coarse^-1 P^T b for a right side b of the fine space, with the prolongation P.
+  // Returns the coarse solution P A_coarse^-1 P^T b for a right-hand side b of the fine space, with the prolongation P.
   using CoarseSolution = std::function<Vector(const ConstVectorRef&)>;
 
   // `values`: entries of A on the symmetric pattern. `pattern` and `values` must outlive this object. Throws
@@ -28,11 +29,16 @@ class TwoLevelSolver {
     int iterations = 0;
     bool converged = false;
   };
-  // `accuracy`: allowed relative error of the energy. Throws IndefiniteMatrix if A is not positive definite.
-  Solution solve(const ConstVectorRef& b, double accuracy, int max_iterations) const;
+  // Solves for each column of b. `accuracy`: allowed relative error of the energy. Throws IndefiniteMatrix if A is not
+  // positive definite.
+  std::vector<Solution> solve(const Eigen::MatrixXd& b, double accuracy, int max_iterations) const;
 
  private:
-  Vector smoothed(const Vector& r) const;
+  class LowerTriangle;
+
+  template <int kColumns>
+  void solve_group(const Eigen::Ref<const Eigen::MatrixXd>& b, double accuracy, int max_iterations,
+                   std::vector<Solution>& out) const;
 
   const Pattern& pattern_;
   const std::vector<double>& values_;

@@ -45,17 +45,41 @@ TEST(TwoLevelSolver, SolvesAndTellsTheEnergyFromBelow) {
   const TwoLevelSolver solver(
       s.pattern, s.values, [&](const ConstVectorRef& b) { return Vector(P * coarse.ldlt().solve(P.transpose() * b)); });
   const Vector b = Vector::LinSpaced(n, 1, 3), x = A.ldlt().solve(b);
-  const auto found = solver.solve(b, 1e-12, 200);
+  const auto found = solver.solve(b, 1e-12, 200).front();
   EXPECT_TRUE(found.converged);
   EXPECT_LT((found.x - x).norm(), 1e-5 * x.norm());
   EXPECT_NEAR(found.energy, b.dot(x), 1e-9 * b.dot(x));
   double last = 0;
   for (int most = 1; most < 5; ++most) {
-    const auto early = solver.solve(b, 1e-12, most);
+    const auto early = solver.solve(b, 1e-12, most).front();
     EXPECT_GE(early.energy, last);
     EXPECT_LE(early.energy, b.dot(x) * (1 + 1e-12));
     EXPECT_NEAR(early.energy, early.x.dot(A * early.x), 1e-9 * early.energy);
     last = early.energy;
+  }
+}
+
+// Groups of four, a smaller group and a single column give what each right-hand side gives alone.
+TEST(TwoLevelSolver, SolvesForSeveralRightHandSides) {
+  constexpr int n = 41;
+  const String s = string_of(n);
+  const Eigen::MatrixXd P = lift(n), coarse = P.transpose() * dense(s) * P;
+  const TwoLevelSolver solver(
+      s.pattern, s.values, [&](const ConstVectorRef& b) { return Vector(P * coarse.ldlt().solve(P.transpose() * b)); });
+  for (const int count : {4, 6, 9}) {
+    Eigen::MatrixXd b(n, count);
+    for (int c = 0; c < count; ++c) b.col(c) = Vector::LinSpaced(n, 0, 1).array().pow(c);
+    b.col(1).setZero();
+    const auto all = solver.solve(b, 1e-6, 200);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(count));
+    for (int c = 0; c < count; ++c) {
+      const auto& one = all[static_cast<std::size_t>(c)];
+      const auto alone = solver.solve(b.col(c), 1e-6, 200).front();
+      EXPECT_EQ(one.iterations, alone.iterations) << c;
+      EXPECT_EQ(one.converged, alone.converged) << c;
+      EXPECT_NEAR(one.energy, alone.energy, 1e-12 * alone.energy) << c;
+      EXPECT_LE((one.x - alone.x).norm(), 1e-12 * alone.x.norm()) << c;
+    }
   }
 }
 
@@ -71,7 +95,7 @@ TEST(TwoLevelSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
 TEST(TwoLevelSolver, HasNothingToDoForNoLoad) {
   const String s = string_of(5);
   const TwoLevelSolver solver(s.pattern, s.values, [](const ConstVectorRef& r) { return Vector(0 * r); });
-  const auto found = solver.solve(Vector::Zero(5), 1e-6, 10);
+  const auto found = solver.solve(Vector::Zero(5), 1e-6, 10).front();
   EXPECT_EQ(found.energy, 0);
   EXPECT_EQ(found.x, Vector::Zero(5));
 }

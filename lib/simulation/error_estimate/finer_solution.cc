@@ -47,9 +47,10 @@ class FinerSystem {
     const FemModel& model = finer.coarse();
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
-    const Matrices small = matrices(model, coarse, shift);
+    coarse_values_ = matrices(model, coarse, shift).shifted;
     coarse_ = make_solver_for(model.pattern());
-    if (coarse_->factor(small.shifted.data()) != FactorStatus::ok)
+    coarse_->set_tolerance({kAccuracy, 0});
+    if (coarse_->factor(coarse_values_.data()) != FactorStatus::ok)
       throw RunError("the tangent cannot be factorised: it is singular or unstable");
     values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
     solver_ =
@@ -60,7 +61,10 @@ class FinerSystem {
         });
   }
 
-  TwoLevelSolver::Solution solve(const Vector& b) const { return solver_->solve(b, kAccuracy, kMaxIterations); }
+  // One solution for each column of b.
+  std::vector<TwoLevelSolver::Solution> solve(const Eigen::MatrixXd& b) const {
+    return solver_->solve(b, kAccuracy, kMaxIterations);
+  }
   Vector stiffness_times(const Vector& x) const {
     Vector y(x.size());
     finer_.model().pattern().multiply(values_.stiffness.data(), x, y);
@@ -71,6 +75,7 @@ class FinerSystem {
  private:
   const FinerModel& finer_;
   Vector q_;
+  std::vector<double> coarse_values_;
   std::unique_ptr<LinearSolver> coarse_;
   Matrices values_;
   std::unique_ptr<TwoLevelSolver> solver_;
@@ -172,7 +177,7 @@ StateError state_error(const FinerModel& finer, const State& coarse, bool in_mot
   Vector force(fine.num_dofs());
   fine.force(coarse.t, system.q(), in_motion ? finer.lift(coarse.v) : Vector(Vector::Zero(force.size())), force);
   if (in_motion) force -= mass_times(fine, finer.lift(acceleration(finer.coarse(), coarse)));
-  const auto found = system.solve(force);
+  const auto found = system.solve(force).front();
   const int order = finer.coarse().parts().mesh.order();
   NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
   fine.parts().dofs->add_to(found.x, correction);
@@ -194,15 +199,17 @@ std::vector<double> frequency_errors(const FinerModel& finer, const State& about
   if (zeros == errors.size()) return errors;
   const FinerSystem system(finer, about, shift_for(modes));
   Subspace space(system, finer.model(), static_cast<Eigen::Index>(2 * errors.size() - zeros));
+  Eigen::MatrixXd residuals(finer.model().num_dofs(), static_cast<Eigen::Index>(errors.size() - zeros));
   for (std::size_t k = 0; k < errors.size(); ++k) {
     const Mode& mode = modes.modes[k];
     const Vector shape = finer.lift(mode.shape);
     space.add(shape);
     if (k < zeros) continue;
-    const Vector residual = mode.lambda * mass_times(finer.model(), shape) - system.stiffness_times(shape);
-    const auto correction = system.solve(residual);
-    if (correction.energy > 0) space.add(correction.x);
+    residuals.col(static_cast<Eigen::Index>(k - zeros)) =
+        mode.lambda * mass_times(finer.model(), shape) - system.stiffness_times(shape);
   }
+  for (const auto& correction : system.solve(residuals))
+    if (correction.energy > 0) space.add(correction.x);
   const Vector finer_values = space.eigenvalues();
   const double more = extrapolation(finer.coarse().parts().mesh.order());
   for (std::size_t k = zeros; k < errors.size(); ++k) {
