@@ -22,7 +22,7 @@ struct ModesArguments {
   std::vector<std::string> set;
   std::optional<std::string> out;
   int count = 20;
-  bool equilibrium = false, quiet = false, force = false;
+  bool equilibrium = false, picture = false, quiet = false, force = false;
 };
 
 void print_zeros(const Modes& modes, int rigid) {
@@ -88,10 +88,11 @@ int compute_modes(const ModesArguments& arguments) {
                "warning: a load that follows the body makes the stiffness unsymmetric; modes use its symmetric part "
                "and do not show flutter. Run a motion (analysis: dynamic) to see it\n");
   fmt::print("results {}\n", folder.string());
-  if (modes.zeros < arguments.count) draw_modes(folder);
-  else
-    fmt::print("no picture: all {} modes {}; compute more with -n\n", modes.zeros,
+  if (modes.zeros >= arguments.count)
+    fmt::print("no shapes to draw: all {} modes {}; compute more with -n\n", modes.zeros,
                analysis.rigid() == modes.zeros ? "are rigid" : "are at 0 Hz");
+  else if (arguments.picture) draw_modes(folder);
+  else fmt::print("to see the shapes: orthodyn view {}, or --picture\n", folder.string());
   return 0;
 }
 
@@ -104,6 +105,7 @@ void declare(ModesArguments& arguments, CommandOptions& options) {
                "Compute modes about the static equilibrium under the scene's loads instead of about rest.");
   options.value("--out", arguments.out, "Folder for the results; default out/modes/<scene>.").type("DIR");
   options.flag("--force", arguments.force, "Replace earlier results in the folder.");
+  options.flag("--picture", arguments.picture, "Also draw the shapes in modes.png, which takes some seconds.");
   options.flag("--quiet", arguments.quiet, "Write results only: no table and no picture.");
   options.repeated("--set", arguments.set, "Change a value of the scene by its path.").type("PATH=VALUE");
 }
