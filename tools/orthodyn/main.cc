@@ -47,8 +47,10 @@ int main(int argc, char** argv) {
   using namespace orthodyn;
   start_with_one_blas_thread_if_addresses_are_limited(argv);
 #ifdef __GLIBC__
-  // Large freed blocks are returned to the system, which saves a fifth of the memory at 84,000 elements.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  // Memory that one step frees is kept for the next, up to 32 MB. Asking the system for it again takes a fifth of the
+  // time of short runs; returning blocks of 1 MB saves 4 % of the memory at 84,000 elements.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 32 << 20);
 #endif
   wait_for_sigterm();
   end_with_parent_if_asked();
