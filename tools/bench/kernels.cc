@@ -65,6 +65,16 @@ void energy(benchmark::State& state, const BentBeam& beam) {
   count(state, beam);
 }
 
+// The fields of one frame: displacement, velocity, and two that are recovered at the nodes.
+void outputs(benchmark::State& state, const BentBeam& beam) {
+  for (auto _ : state) {
+    const auto view = beam.model().view({0, beam.q(), beam.v()});
+    for (const char* field : {"displacement", "velocity", "nodal_stress", "von_mises"})
+      benchmark::DoNotOptimize(view->evaluate(field));
+  }
+  count(state, beam);
+}
+
 enum class Use { in_double, in_single, cholmod };
 
 struct Factored {
@@ -122,36 +132,49 @@ class LazyBeam {
   std::unique_ptr<BentBeam> body_;
 };
 
-void add(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam,
-         void (*measure)(benchmark::State&, const BentBeam&)) {
-  benchmark::RegisterBenchmark((kernel + "/" + size).c_str(), [beam, measure](benchmark::State& state) {
-    measure(state, beam->get());
-  })->UseRealTime();
-}
+using Measure = void (*)(benchmark::State&, const BentBeam&);
 
-// Runs with all threads of the machine.
-void add_threaded(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam,
-                  void (*measure)(benchmark::State&, const BentBeam&)) {
-  const int count = available_threads();
-  if (count == 1) return;
-  const std::string name = fmt::format("{}, {} threads/{}", kernel, count, size);
-  benchmark::RegisterBenchmark(name.c_str(), [beam, measure, count](benchmark::State& state) {
-    const LoopThreads threads(count);
-    measure(state, beam->get());
-  })->UseRealTime();
-}
+// Registers benchmarks; with `calls` > 0 each makes this number of calls, otherwise as many as a precise time needs.
+class Registration {
+ public:
+  explicit Registration(int calls) : calls_(calls) {}
 
-// Cholesky beside CHOLMOD.
-void add_solvers(const std::string& size, const std::shared_ptr<LazyBeam>& beam) {
-  add("factorisation", size, beam, factorisation<Use::in_double>);
-  add_threaded("factorisation", size, beam, factorisation<Use::in_double>);
-  add("factorisation, single precision", size, beam, factorisation<Use::in_single>);
-  add_threaded("factorisation, single precision", size, beam, factorisation<Use::in_single>);
-  add("factorisation, CHOLMOD", size, beam, factorisation<Use::cholmod>);
-  add("solve", size, beam, solve<Use::in_double>);
-  add("solve, single precision", size, beam, solve<Use::in_single>);
-  add("solve, CHOLMOD", size, beam, solve<Use::cholmod>);
-}
+  void add(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam, Measure measure) {
+    add(kernel + "/" + size, [beam, measure](benchmark::State& state) { measure(state, beam->get()); });
+  }
+
+  // Runs with all threads of the machine.
+  void add_threaded(const std::string& kernel, const std::string& size, const std::shared_ptr<LazyBeam>& beam,
+                    Measure measure) {
+    const int count = available_threads();
+    if (count == 1) return;
+    add(fmt::format("{}, {} threads/{}", kernel, count, size), [beam, measure, count](benchmark::State& state) {
+      const LoopThreads threads(count);
+      measure(state, beam->get());
+    });
+  }
+
+  // Cholesky beside CHOLMOD.
+  void add_solvers(const std::string& size, const std::shared_ptr<LazyBeam>& beam) {
+    add("factorisation", size, beam, factorisation<Use::in_double>);
+    add_threaded("factorisation", size, beam, factorisation<Use::in_double>);
+    add("factorisation, single precision", size, beam, factorisation<Use::in_single>);
+    add_threaded("factorisation, single precision", size, beam, factorisation<Use::in_single>);
+    add("factorisation, CHOLMOD", size, beam, factorisation<Use::cholmod>);
+    add("solve", size, beam, solve<Use::in_double>);
+    add("solve, single precision", size, beam, solve<Use::in_single>);
+    add("solve, CHOLMOD", size, beam, solve<Use::cholmod>);
+  }
+
+ private:
+  template <class Run>
+  void add(const std::string& name, Run&& run) {
+    auto* const added = benchmark::RegisterBenchmark(name.c_str(), std::forward<Run>(run))->UseRealTime();
+    if (calls_ > 0) added->Iterations(calls_);
+  }
+
+  int calls_;
+};
 
 struct Size {
   int across;
@@ -162,7 +185,8 @@ struct Size {
 
 void register_memory() { benchmark::RegisterBenchmark("160 bytes from memory", triad)->UseRealTime(); }
 
-void register_kernels(bool large) {
+void register_kernels(bool large, int calls) {
+  Registration all(calls);
   std::vector<Size> sizes{{5, "2,700"}, {9, "13,500"}};
   if (large) sizes.push_back({15, "57,600"});
   for (const auto& [across, name] : sizes) {
@@ -170,39 +194,42 @@ void register_kernels(bool large) {
                damped = std::make_shared<LazyBeam>(Beam{true}, across),
                isotropic = std::make_shared<LazyBeam>(Beam{false, 1, "isotropic"}, across);
     const std::string n = name;
-    add("force", n, plain, force);
-    add_threaded("force", n, plain, force);
-    add("force, damped", n, damped, force);
-    add("force, isotropic", n, isotropic, force);
-    add("tangent", n, plain, tangent);
-    add_threaded("tangent", n, plain, tangent);
-    add("tangent, damped", n, damped, tangent);
-    add("tangent, isotropic", n, isotropic, tangent);
-    add("M + w K", n, plain, combine);
-    add_threaded("M + w K", n, plain, combine);
-    add("M + w D + w K", n, damped, combine);
-    add("elastic energy", n, plain, energy);
-    add_threaded("elastic energy", n, plain, energy);
-    add_solvers(n, plain);
-    add("symbolic analysis", n, plain, analysis);
+    all.add("force", n, plain, force);
+    all.add_threaded("force", n, plain, force);
+    all.add("force, damped", n, damped, force);
+    all.add("force, isotropic", n, isotropic, force);
+    all.add("tangent", n, plain, tangent);
+    all.add_threaded("tangent", n, plain, tangent);
+    all.add("tangent, damped", n, damped, tangent);
+    all.add("tangent, isotropic", n, isotropic, tangent);
+    all.add("M + w K", n, plain, combine);
+    all.add_threaded("M + w K", n, plain, combine);
+    all.add("M + w D + w K", n, damped, combine);
+    all.add("elastic energy", n, plain, energy);
+    all.add_threaded("elastic energy", n, plain, energy);
+    all.add("outputs", n, plain, outputs);
+    all.add_solvers(n, plain);
+    all.add("symbolic analysis", n, plain, analysis);
   }
-  add_solvers("4,005 quadratic", std::make_shared<LazyBeam>(Beam{false, 2}, 3));
+  all.add_solvers("4,005 quadratic", std::make_shared<LazyBeam>(Beam{false, 2}, 3));
   const auto quadratic = std::make_shared<LazyBeam>(Beam{false, 2}, 4);
-  add("force, quadratic elements", "6,480", quadratic, force);
-  add("tangent, quadratic elements", "6,480", quadratic, tangent);
+  all.add("force, quadratic elements", "6,480", quadratic, force);
+  all.add("tangent, quadratic elements", "6,480", quadratic, tangent);
+  all.add("outputs, quadratic elements", "6,480", quadratic, outputs);
 }
 
 void register_growth() {
+  Registration all(0);
   const std::vector<Size> sizes{{5, "3,125"},    {7, "8,575"},    {10, "25,000"}, {14, "68,600"},
                                 {20, "200,000"}, {27, "492,075"}, {34, "982,600"}};
   for (const auto& [across, elements] : sizes) {
     const auto beam = std::make_shared<LazyBeam>(Beam{}, across);
     const std::string n = std::string(elements) + " elements";
-    add("force", n, beam, force);
-    add("tangent", n, beam, tangent);
-    add("symbolic analysis", n, beam, analysis);
-    add("factorisation", n, beam, factorisation<Use::in_double>);
-    add("solve", n, beam, solve<Use::in_double>);
+    all.add("force", n, beam, force);
+    all.add("tangent", n, beam, tangent);
+    all.add("symbolic analysis", n, beam, analysis);
+    all.add("factorisation", n, beam, factorisation<Use::in_double>);
+    all.add("solve", n, beam, solve<Use::in_double>);
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct Request {
   std::string filter = ".*";
   std::filesystem::path json, compare;
-  int repetitions = 5;
+  int repetitions = 5, calls = 0;
   bool large = false, growth = false;
 };
 
@@ -26,7 +26,7 @@ std::vector<orthodyn::bench::Result> measure(const Request& request) {
     orthodyn::bench::register_growth();
   } else {
     orthodyn::bench::register_memory();
-    orthodyn::bench::register_kernels(request.large);
+    orthodyn::bench::register_kernels(request.large, request.calls);
   }
   std::vector<std::string> arguments{"orthodyn_bench", "--benchmark_filter=" + request.filter,
                                      fmt::format("--benchmark_repetitions={}", request.repetitions),
@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
          "Print ratios to an earlier file of --json; the exit code is 1 if a benchmark became more than 10 % slower")
       ->check(CLI::ExistingFile);
   app.add_option("--repetitions", request.repetitions, "Repetitions of each benchmark")->check(CLI::Range(1, 1000));
+  app.add_option("--calls", request.calls, "Calls of each kernel, for tools/bench/instructions.py; default: by time")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--large", request.large, "Also measure 57,600 unknowns");
   app.add_flag("--growth", request.growth,
                "Measure 3,000 to a million elements instead, for tools/bench/growth.py; needs 16 GB of memory and an "
