@@ -103,13 +103,13 @@ struct Tet10 {
   }
 
   static Eigen::Matrix<double, kNodes, kNodes> consistent_mass(const ElementNodes<kNodes>& X, double density) {
-    using Mass = Eigen::Matrix<double, kNodes, kNodes>;
+    using Matrix = Eigen::Matrix<double, kNodes, kNodes>;
     const auto integral = [](auto&& determinant_at) {
-      Mass M = Mass::Zero();
+      Matrix M = Matrix::Zero();
       for (const MassPoint& p : mass_points()) M += p.weight * determinant_at(p) * p.N * p.N.transpose();
       return M;
     };
-    static const Mass of_unit_determinant = integral([](const MassPoint&) { return 1.0; });
+    static const Matrix of_unit_determinant = integral([](const MassPoint&) { return 1.0; });
     const NodeDifferences<kNodes> rest = differences<kNodes>(X);
     if (has_straight_edges(rest)) return density * rest.leftCols<3>().determinant() * of_unit_determinant;
     return density * integral([&](const MassPoint& p) { return (rest * p.slopes).determinant(); });
