@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <regex>
+#include <string_view>
 #include <utility>
 
 #include "lib/core/errors.h"
@@ -86,6 +86,25 @@ void write_whole_file(const std::filesystem::path& path, const std::vector<std::
   if (durable) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");  // makes the new name durable
 }
 
+// Each removes something at the end of `name`, and returns false if it is not there.
+bool remove_end(std::string_view& name, std::string_view end) {
+  const bool found = name.ends_with(end);
+  if (found) name.remove_suffix(end.size());
+  return found;
+}
+bool remove_number(std::string_view& name) {
+  const auto begin = name.find_last_not_of("0123456789") + 1;
+  const bool found = begin < name.size();
+  name = name.substr(0, begin);
+  return found;
+}
+
+// True for the name of a PartialFile, such as run.json.123-4.part.
+bool is_partial(std::string_view name) {
+  return remove_end(name, ".part") && remove_number(name) && remove_end(name, "-") && remove_number(name) &&
+         remove_end(name, ".") && !name.empty();
+}
+
 }  // namespace
 
 bool writes_files() { return file_writing_enabled; }
@@ -127,12 +146,11 @@ void write_durable_file(const std::filesystem::path& path, const std::vector<std
 
 void remove_partial_files(const std::filesystem::path& folder) {
   if (!writes_files()) return;
-  static const std::regex partial(R"(.+\.\d+-\d+\.part)");
   std::error_code ec;
   std::vector<std::filesystem::path> found;
   for (auto at = std::filesystem::recursive_directory_iterator(folder, ec); !ec && at != end(at); at.increment(ec))
     if (at->symlink_status(ec).type() == std::filesystem::file_type::regular &&
-        std::regex_match(at->path().filename().string(), partial))
+        is_partial(at->path().filename().string()))
       found.push_back(at->path());
   for (const auto& path : found) std::filesystem::remove(path, ec);  // failures are harmless
 }
