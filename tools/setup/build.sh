@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Configures and builds presets, and runs the tests. Needs steps.sh.
 
-readonly MEGABYTES_PER_JOB=1500
+readonly MEGABYTES_PER_JOB=2500
 
 # Memory for the compiler: the free memory of the machine, or the limit of the container if that is lower.
 available_megabytes() {
