@@ -93,6 +93,14 @@ double smallest(const std::array<AxisLimits, 3>& limits) {
   return least;
 }
 
+// Whether Green's strain is so large that the law's strain may exceed a limit.
+bool is_near_limit(const ElasticTerm& term, const NodalState& state) {
+  if (term.definition().options.kinematics == Kinematics::linear) return false;
+  const Stiffness& stiffness = term.definition().stiffness;
+  const double largest_ratio = kMargin * stress_over_young(stiffness).rowwise().norm().maxCoeff();
+  return term.largest_green_strain(state) >= smallest(strain_limits(stiffness)) / largest_ratio;
+}
+
 }  // namespace
 
 bool needs_strain_check(const FemModel& model) {
@@ -121,16 +129,18 @@ Warnings strain_warnings(const FemModel& model, const State& initial, const Stat
   return out;
 }
 
+bool is_near_strain_limit(const FemModel& model, const NodalState& state) {
+  return std::any_of(model.parts().elastic.begin(), model.parts().elastic.end(),
+                     [&](const auto& term) { return is_near_limit(*term, state); });
+}
+
 std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state) {
   std::optional<StrainExcess> worst;
   for (const auto& term : model.parts().elastic) {
-    if (term->definition().options.kinematics == Kinematics::linear) continue;
+    if (!is_near_limit(*term, state)) continue;
     const Stiffness& stiffness = term->definition().stiffness;
-    const Mat36 equivalent = stress_over_young(stiffness);
-    const auto limits = strain_limits(stiffness);
-    const double far_off = smallest(limits) / (kMargin * equivalent.rowwise().norm().maxCoeff());
-    if (term->largest_green_strain(state) < far_off) continue;
-    const Excess excess = find_excess(*term, limits, equivalent * term->strains(state));
+    const Excess excess =
+        find_excess(*term, strain_limits(stiffness), stress_over_young(stiffness) * term->strains(state));
     if (excess.count > 0 && (!worst || excess.severity() > worst->share))
       worst = {excess.severity(), warning(*term, excess, "the motion strained")};
   }

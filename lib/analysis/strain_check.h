@@ -22,6 +22,8 @@ struct StrainExcess {
   double share = 0;      // strain divided by its limit
   std::string sentence;  // "region wood: the motion strained 3 of 400 elements along material axis 1 to ..."
 };
+// Whether any region may exceed a limit, by a bound that costs little. Otherwise strain_excess() finds nothing.
+bool is_near_strain_limit(const FemModel& model, const NodalState& state);
 std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state);
 
 // Whether any corotational region has a strain limit that a body can reach, in a model of any size.

@@ -23,7 +23,7 @@ constexpr double kMaxShapeEntries = 5e6;  // of mode shapes in finer elements
 // computation.
 template <class Work>
 bool try_finer_elements(const FemModel& model, double& cpu_seconds, const Work& work) {
-  if (model.ranks() || FinerModel::estimated_unknowns(model) > kMaxFinerUnknowns) return false;
+  if (!allows_finer_elements(model)) return false;
   const double begin = cpu_seconds_now();
   bool done = false;
   try {
@@ -116,6 +116,10 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }
 
 }  // namespace
+
+bool allows_finer_elements(const FemModel& model) {
+  return !model.ranks() && FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
+}
 
 StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
                                    const MeshError& recovered, const std::vector<int>& nodes) {

@@ -10,6 +10,9 @@
 
 namespace orthodyn {
 
+// Whether finer elements are affordable, and the model is on one rank.
+bool allows_finer_elements(const FemModel& model);
+
 // Estimates the mesh error of a state by finer elements, including the errors of probed fields (MeshError::probed). If
 // finer elements cannot be used, returns `recovered`, the estimate by recovered stresses. Sets MeshError::locking_risk.
 // `in_motion`: see state_error(). `nodes`: nodes at which errors of the displacement are estimated.

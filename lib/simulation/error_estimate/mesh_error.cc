@@ -12,8 +12,10 @@ constexpr double kDeformed = 1e-6;  // elastic over kinetic energy; less is a ri
 
 }  // namespace
 
-MeshErrorRecorder::MeshErrorRecorder(std::size_t outputs)
-    : outputs_(outputs), stride_(std::max<std::size_t>((outputs + kStates - 1) / kStates, 1)) {}
+MeshErrorRecorder::MeshErrorRecorder(std::size_t outputs, const Model* only_most_deformed)
+    : only_most_deformed_(only_most_deformed),
+      outputs_(outputs),
+      stride_(std::max<std::size_t>((outputs + kStates - 1) / kStates, 1)) {}
 
 void MeshErrorRecorder::on_output(const ObservedState& observed) {
   ++seen_;
@@ -21,7 +23,8 @@ void MeshErrorRecorder::on_output(const ObservedState& observed) {
 }
 
 void MeshErrorRecorder::observe(const ObservedState& observed) {
-  const auto energy = observed.evaluate("energy.mesh_error");
+  const auto energy = only_most_deformed_ ? std::vector{0, observed.evaluate("energy.elastic")[0]}
+                                          : observed.evaluate("energy.mesh_error");
   if (!std::isfinite(energy[0]) || !std::isfinite(energy[1])) return;  // inverted elements
   error_ += energy[0];
   elastic_ += energy[1];
@@ -34,7 +37,10 @@ void MeshErrorRecorder::observe(const ObservedState& observed) {
 
 std::optional<MeshError> MeshErrorRecorder::found() const {
   if (!(elastic_ > kDeformed * kinetic_)) return std::nullopt;
-  return MeshError{.relative = error_ / (error_ + elastic_), .samples = samples_};
+  if (!only_most_deformed_) return MeshError{.relative = error_ / (error_ + elastic_), .samples = samples_};
+  const auto energy = only_most_deformed_->evaluate("energy.mesh_error", *most_deformed_);
+  if (!std::isfinite(energy[0]) || !(energy[1] > 0)) return std::nullopt;
+  return MeshError{.relative = energy[0] / (energy[0] + energy[1]), .samples = 1};
 }
 
 }  // namespace orthodyn

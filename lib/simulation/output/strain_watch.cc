@@ -15,11 +15,12 @@ std::optional<StrainExcess> StrainWatch::of_all_ranks(std::optional<StrainExcess
 
 void StrainWatch::observe(const ObservedState& observed) {
   last_evaluation_ = observed.t();
+  const State& state = observed.state();
+  const NodalExpansion nodal(model_.parts(), times_ ? times_->at(state.t) : state.t, state.q, state.v);
+  if (!model_.space().any(is_near_strain_limit(model_, nodal.state()))) return;
   const double energy = observed.evaluate("energy.elastic")[0];
   if (!(energy > largest_energy_)) return;
   largest_energy_ = energy;
-  const State& state = observed.state();
-  const NodalExpansion nodal(model_.parts(), times_ ? times_->at(state.t) : state.t, state.q, state.v);
   const auto found = of_all_ranks(strain_excess(model_, nodal.state()));
   if (found && (!worst_ || found->share > worst_->share)) worst_ = {found->share, state.t, found->sentence};
 }

@@ -1,6 +1,6 @@
-// Monitors whether strains exceed the validity limit of the corotational law (lib/analysis/strain_check.h). Strains are
-// evaluated when the elastic energy reaches a new maximum, which is checked at outputs and, where outputs are rare, at
-// steps.
+// Monitors whether strains exceed the validity limit of the corotational law (lib/analysis/strain_check.h). Strains
+// near the limit are evaluated when the elastic energy reaches a new maximum. This is checked at outputs and, where
+// outputs are rare, at steps.
 #pragma once
 
 #include <cmath>

@@ -127,7 +127,9 @@ class DynamicAnalysis {
     auto all = observers.all(progress.get(), checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());
     if (setup_.scene.output.accumulated_error) all.push_back(&segments_.emplace(*setup_.built.model));
-    if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
+    const FemModel& model = *setup_.built.model;
+    if (setup_.scene.output.mesh_error)
+      all.push_back(&mesh_error_.emplace(outputs_left(plan), allows_finer_elements(model) ? &model : nullptr));
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     Outcome outcome = orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
