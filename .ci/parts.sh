@@ -117,6 +117,15 @@ drawing() {
 # Every scene that is shown, at its full length.
 shipped_scenes() { ORTHODYN_LONG=1 nightly_tests '^shipped$'; }
 
+# Instructions of the kernels, against those of tools/bench/instructions.json.
+instructions() {
+  ensure valgrind valgrind
+  if [[ ! -e /usr/include/benchmark/benchmark.h ]]; then install_packages libbenchmark-dev; fi
+  logged configure-bench cmake -D ORTHODYN_BENCH=ON build/release
+  build release --target orthodyn_bench
+  tools/bench/instructions.py
+}
+
 # Every scene and the notebooks by the Python package.
 python_scenes() { ORTHODYN_LONG=1 nightly_tests '^python\.'; }
 
@@ -126,20 +135,44 @@ each_source() {
   build dev
 }
 
-# bare_debian RELEASE COMMAND...: in a system that has nothing but what debootstrap installs. Needs root.
-bare_debian() {
-  local root=$PWD/build/ci/$1
+# bare_system RELEASE NAME: build/ci/NAME as debootstrap makes it. Needs root.
+bare_system() {
   ensure debootstrap debootstrap
-  if [[ ! -d $root/usr ]]; then logged "debootstrap-$1" debootstrap --variant=minbase "$1" "$root"; fi
-  rm -rf "$root/orthodyn"
-  git clone -q . "$root/orthodyn"
-  cp /etc/resolv.conf "$root/etc/resolv.conf"
+  if [[ ! -d build/ci/$2/usr ]]; then logged "debootstrap-$2" debootstrap --variant=minbase "$1" "build/ci/$2"; fi
+  cp /etc/resolv.conf "build/ci/$2/etc/resolv.conf"
+}
+
+# in_system NAME COMMAND...: in its folder /orthodyn.
+in_system() {
+  local root=$PWD/build/ci/$1
   mount --bind /proc "$root/proc"
   logged "bare-$1" chroot "$root" bash -c "cd /orthodyn && ${*:2}" || { umount "$root/proc"; return 1; }
   umount "$root/proc"
+}
+
+# bare_debian RELEASE COMMAND...: in a clone in a system that has nothing but what debootstrap installs.
+bare_debian() {
+  bare_system "$1" "$1"
+  rm -rf "build/ci/$1/orthodyn"
+  git clone -q . "build/ci/$1/orthodyn"
+  in_system "$1" "${@:2}"
 }
 debian12() { bare_debian bookworm 'tools/quickstart && tools/test'; }
 debian13() {
   bare_debian trixie 'source tools/setup/steps.sh && source tools/setup/packages.sh && source tools/setup/build.sh &&
     ensure_packages && configure release release && build release'
 }
+
+# debian_package RELEASE: the package, made in one bare system and used in another.
+debian_package() {
+  local other=build/ci/$1-installed
+  bare_debian "$1" 'tools/package --deb x86-64-v3'
+  rm -rf "$other"
+  bare_system "$1" "$1-installed"
+  mkdir "$other/orthodyn"
+  cp "build/ci/$1/orthodyn/build/"orthodyn_*.deb "$other/orthodyn"
+  in_system "$1-installed" 'apt-get update -q && apt-get install -qy --no-install-recommends ./orthodyn_*.deb &&
+    orthodyn init scene part.yaml && orthodyn run part.yaml --out part && orthodyn view part && test -s part/view.html'
+}
+package12() { debian_package bookworm; }
+package13() { debian_package trixie; }
