@@ -42,10 +42,12 @@ FemOutput mean_of_cells(const TensorField& tensor) {
 }
 
 FemOutput at_nodes(const TensorField& tensor, int region = kAllRegions) {
-  return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
-           fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
-          [&tensor, region](const View& view) { return tensor_at_nodes(view.recovered(), tensor, region); },
-          Reduction::none};
+  return {
+      {fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
+       fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
+      [&tensor, region](const View& view) { return tensor_at_nodes(view.recovered(), tensor, region); },
+      Reduction::none,
+      [&tensor, region](const View& view, int node) { return tensor_at_node(view.recovered(), tensor, region, node); }};
 }
 
 FemOutput at_nodes(const DerivedField& derived, int region = kAllRegions) {
@@ -54,7 +56,10 @@ FemOutput at_nodes(const DerivedField& derived, int region = kAllRegions) {
           [&derived, region](const View& view) {
             return derived_at_nodes(view.recovered(), view.parts().elastic, derived, region);
           },
-          Reduction::none};
+          Reduction::none,
+          [&derived, region](const View& view, int node) {
+            return derived_at_node(view.recovered(), view.parts().elastic, derived, region, node);
+          }};
 }
 
 }  // namespace
@@ -198,8 +203,13 @@ const std::vector<std::string>& axis_names() {
 std::vector<FemOutput> make_outputs() {
   std::vector<FemOutput> all = {
       {{"displacement", Location::node, 3, "m", "Displacement from the rest shape."},
-       [](const View& view) { return flat(view.nodal().u); }},
-      {{"velocity", Location::node, 3, "m/s", "Velocity."}, [](const View& view) { return flat(view.nodal().u_rate); }},
+       [](const View& view) { return flat(view.nodal().u); },
+       Reduction::sum,
+       [](const View& view, int node) { return flat(Vec3(view.nodal().u.col(node))); }},
+      {{"velocity", Location::node, 3, "m/s", "Velocity."},
+       [](const View& view) { return flat(view.nodal().u_rate); },
+       Reduction::sum,
+       [](const View& view, int node) { return flat(Vec3(view.nodal().u_rate.col(node))); }},
       {{"region", Location::cell, 1, "1", "Index of the region."},
        [](const View& view) {
          const auto& regions = view.parts().mesh.region_of;

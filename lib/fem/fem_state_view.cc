@@ -27,14 +27,17 @@ NodalVector accelerations(const FemModel::Parts& parts, const NodalExpansion& no
   return a;
 }
 
-// Evaluates an output "REGION.FIELD".
-std::vector<double> evaluate_in_region(const FemStateView& view, const std::string& name) {
-  const auto& terms = view.parts().elastic;
-  for (std::size_t r = 0; r < terms.size(); ++r) {
-    const std::string prefix = terms[r]->region() + ".";
+// The output of this name, which may be "REGION.FIELD".
+FemOutput find_output(const FemModel::Parts& parts, const std::string& name) {
+  for (const auto& output : all_outputs())
+    if (output.info.name == name) return output;
+  for (const auto& output : reaction_outputs(parts.supports))
+    if (output.info.name == name) return output;
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r) {
+    const std::string prefix = parts.elastic[r]->region() + ".";
     if (!name.starts_with(prefix)) continue;
     for (const FemOutput& output : nodal_outputs(static_cast<int>(r)))
-      if (prefix + output.info.name == name) return output.compute(view);
+      if (prefix + output.info.name == name) return output;
   }
   throw std::logic_error("no output named " + name);
 }
@@ -122,15 +125,16 @@ const NodalVector& FemStateView::support_forces() const {
 }
 
 std::vector<double> FemStateView::evaluate(const std::string& name) const {
-  const auto evaluated = [&](const FemOutput& output) {
-    std::vector<double> here = output.compute(*this);
-    return parts_.subdomain ? reduced(parts_, output, std::move(here)) : here;
-  };
-  for (const auto& output : all_outputs())
-    if (output.info.name == name) return evaluated(output);
-  for (const auto& output : reaction_outputs(parts_.supports))
-    if (output.info.name == name) return evaluated(output);
-  return evaluate_in_region(*this, name);
+  const FemOutput output = find_output(parts_, name);
+  std::vector<double> here = output.compute(*this);
+  return parts_.subdomain ? reduced(parts_, output, std::move(here)) : here;
+}
+
+std::vector<double> FemStateView::evaluate_at(const std::string& name, int node, int components) const {
+  const FemOutput output = find_output(parts_, name);
+  if (output.compute_at && (!parts_.subdomain || output.reduction == Reduction::none))
+    return output.compute_at(*this, node);
+  return StateView::evaluate_at(name, node, components);
 }
 
 }  // namespace orthodyn

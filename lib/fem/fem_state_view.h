@@ -18,6 +18,7 @@ class FemStateView : public StateView {
       : parts_(parts), nodal_(parts, state.t, state.q, state.v, state.load_factor) {}
 
   std::vector<double> evaluate(const std::string& name) const override;
+  std::vector<double> evaluate_at(const std::string& name, int node, int components) const override;
 
   const FemModel::Parts& parts() const { return parts_; }
   const NodalExpansion& nodal() const { return nodal_; }
@@ -62,6 +63,7 @@ struct FemOutput {
   OutputInfo info;
   std::function<std::vector<double>(const FemStateView&)> compute;
   Reduction reduction = Reduction::sum;
+  std::function<std::vector<double>(const FemStateView&, int node)> compute_at = {};  // empty: from compute()
 };
 
 // The outputs that every FemModel has.

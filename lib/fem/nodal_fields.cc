@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "lib/core/symmetric_eigen.h"
 
@@ -46,6 +47,21 @@ DerivedField exposure(const char* name, const char* sentence) {
 const TensorField& tensor_of(const DerivedField& derived) {
   const auto& all = tensor_fields();
   return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == derived.tensor; });
+}
+
+std::size_t num_components(const DerivedField& derived) { return std::max<std::size_t>(derived.components.size(), 1); }
+
+// The region, or all of them if it is negative.
+std::vector<std::size_t> regions_of(int region, std::size_t count) {
+  if (region >= 0) return {static_cast<std::size_t>(region)};
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+// Replaces the values at `at` if they are NaN or their first is smaller.
+void raise(const std::vector<double>& values, double* at) {
+  if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
 }
 
 // Calls visit(node, tensor) for the nodes of a region.
@@ -97,6 +113,15 @@ const StressRecovery::NodalValues& RecoveredTensors::of(const TensorField& tenso
   return kept_.emplace(key, recovery_.at_nodes_of_region(region, state_, tensor)).first->second;
 }
 
+std::optional<Vec6> RecoveredTensors::at(const TensorField& tensor, std::size_t region, int node) {
+  const auto kept = kept_.find({&tensor, region});
+  if (kept == kept_.end() && !recovery_.has_ranks()) return recovery_.at_node_of_region(region, node, state_, tensor);
+  const auto& [nodes, values] = of(tensor, region);
+  const auto found = std::find(nodes->begin(), nodes->end(), node);
+  if (found == nodes->end()) return std::nullopt;
+  return Vec6(values.row(found - nodes->begin()));
+}
+
 std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region) {
   std::vector<double> out(6 * recovered.num_nodes(), region < 0 ? 0 : kNone);
   const auto at = [&](std::size_t node) { return Eigen::Map<Vec6>(out.data() + 6 * node); };
@@ -117,18 +142,34 @@ std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorFie
 
 std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
                                      const DerivedField& derived, int region) {
-  const std::size_t count = std::max<std::size_t>(derived.components.size(), 1);
+  const std::size_t count = num_components(derived);
   std::vector<double> out(count * recovered.num_nodes(), kNone);
-  const auto add = [&](std::size_t r) {
+  for (const std::size_t r : regions_of(region, terms.size()))
     for_each_node(recovered, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
-      const auto values = derived.of(tensor, terms[r]->definition());
-      auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
-      if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
+      raise(derived.of(tensor, terms[r]->definition()), out.data() + count * node);
     });
-  };
-  if (region >= 0) add(static_cast<std::size_t>(region));
-  else
-    for (std::size_t r = 0; r < terms.size(); ++r) add(r);
+  return out;
+}
+
+std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, int region, int node) {
+  Vec6 sum = Vec6::Zero();
+  int count = 0;
+  for (const std::size_t r : regions_of(region, recovered.num_regions()))
+    if (const auto value = recovered.at(tensor, r, node)) {
+      sum += *value;
+      ++count;
+    }
+  if (count == 0 && region >= 0) return std::vector<double>(6, kNone);
+  sum /= std::max(count, 1);
+  return {sum.begin(), sum.end()};
+}
+
+std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
+                                    const DerivedField& derived, int region, int node) {
+  std::vector<double> out(num_components(derived), kNone);
+  for (const std::size_t r : regions_of(region, terms.size()))
+    if (const auto tensor = recovered.at(tensor_of(derived), r, node))
+      raise(derived.of(*tensor, terms[r]->definition()), out.data());
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,10 @@ class RecoveredTensors {
   // Nodal values of the tensor in one region; the reference stays valid. Collective at the first use.
   const StressRecovery::NodalValues& of(const TensorField& tensor, std::size_t region);
 
+  // The tensor at one node, from the elements around it unless of() has been called; empty if the node is not of the
+  // region. Collective with several ranks.
+  std::optional<Vec6> at(const TensorField& tensor, std::size_t region, int node);
+
   std::size_t num_nodes() const { return recovery_.num_nodes(); }
   std::size_t num_regions() const { return recovery_.num_regions(); }
 
@@ -63,6 +68,11 @@ class RecoveredTensors {
 std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region);
 std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
                                      const DerivedField& derived, int region);
+
+// The same at one node.
+std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, int region, int node);
+std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
+                                    const DerivedField& derived, int region, int node);
 
 // The fields that are available for each region, as the output "REGION.FIELD".
 std::vector<OutputInfo> region_fields();

@@ -176,33 +176,78 @@ SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& a
   return mesh.type.degree() == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
 }
 
+Vec6 RegionRecovery::at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const {
+  return mesh.type.degree() == 1 ? at_node_with<kLinear>(mesh, row, at_point)
+                                 : at_node_with<kQuadratic>(mesh, row, at_point);
+}
+
+// Fits polynomials to values at the points of patches.
+template <int kCoefficients>
+class RegionRecovery::PatchSolver {
+ public:
+  using Row = Eigen::Matrix<double, 1, 6>;
+
+  PatchSolver(const RegionRecovery& region, const ElementMesh& mesh) : region_(region), mesh_(mesh) {}
+
+  // `values`: of element k at its point p.
+  template <class Values>
+  void fit(const Patch& patch, Values&& values) {
+    patch_ = &patch;
+    const Eigen::Index count = region_.per_element_ * std::ssize(patch.elements);
+    monomials_.resize(count, kCoefficients);
+    values_.resize(count, 6);
+    Eigen::Index i = 0;
+    for (const int k : patch.elements)
+      for (int p = 0; p < region_.per_element_; ++p, ++i) {
+        monomials_.row(i) = relative(region_.places_.col(region_.per_element_ * k + p));
+        values_.row(i) = values(k, p);
+      }
+    mean_ = values_.colwise().mean();
+    slopes_ = patch.fit.inverse * monomials_.transpose().lazyProduct(values_).eval();
+  }
+
+  // The polynomial at a node, an index into nodes().
+  Row at(int row) const {
+    return mean_ +
+           relative(mesh_.nodes[static_cast<std::size_t>(region_.nodes_[static_cast<std::size_t>(row)])]) * slopes_;
+  }
+
+ private:
+  Eigen::Matrix<double, 1, kCoefficients> relative(const Vec3& place) const {
+    const PatchFit& fit = patch_->fit;
+    return (monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - fit.means).transpose();
+  }
+
+  const RegionRecovery& region_;
+  const ElementMesh& mesh_;
+  const Patch* patch_ = nullptr;
+  Eigen::Matrix<double, Eigen::Dynamic, kCoefficients> monomials_;  // one row per point
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values_;
+  Row mean_;
+  Eigen::Matrix<double, kCoefficients, 6> slopes_;
+};
+
 template <int kCoefficients>
 SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const {
-  using Row = Eigen::Matrix<double, 1, 6>;
-  using Monomials = Eigen::Matrix<double, 1, kCoefficients>;
   SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
-  Eigen::Matrix<double, Eigen::Dynamic, kCoefficients> at;  // monomials and values at a patch's points, one row each
-  Eigen::Matrix<double, Eigen::Dynamic, 6> values;
-  for (const auto& [row, elements, fit, middles] : patches_) {
-    const auto relative = [&](const Vec3& place) -> Monomials {
-      return (monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - fit.means).transpose();
-    };
-    const Eigen::Index count = per_element_ * std::ssize(elements);
-    at.resize(count, kCoefficients);
-    values.resize(count, 6);
-    Eigen::Index i = 0;
-    for (const int element : elements)
-      for (Eigen::Index point = per_element_ * element; point < per_element_ * (element + 1); ++point, ++i) {
-        at.row(i) = relative(places_.col(point));
-        values.row(i) = at_points.row(point);
-      }
-    const Row mean = values.colwise().mean();
-    const Eigen::Matrix<double, kCoefficients, 6> slopes = fit.inverse * at.transpose().lazyProduct(values).eval();
-    const auto value_at = [&](int node) -> Row {
-      return mean + relative(mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])]) * slopes;
-    };
-    out.row(row) = value_at(row);
-    for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);
+  PatchSolver<kCoefficients> solver(*this, mesh);
+  for (const Patch& patch : patches_) {
+    solver.fit(patch, [&](int k, int p) { return at_points.row(per_element_ * k + p); });
+    out.row(patch.row) = solver.at(patch.row);
+    for (const int middle : patch.middles) out.row(middle) += 0.5 * solver.at(middle);
+  }
+  return out;
+}
+
+template <int kCoefficients>
+Vec6 RegionRecovery::at_node_with(const ElementMesh& mesh, int row, const AtPoint& at_point) const {
+  Vec6 out = Vec6::Zero();
+  PatchSolver<kCoefficients> solver(*this, mesh);
+  for (const Patch& patch : patches_) {
+    const bool is_centre = patch.row == row;
+    if (!is_centre && std::find(patch.middles.begin(), patch.middles.end(), row) == patch.middles.end()) continue;
+    solver.fit(patch, [&](int k, int p) { return at_point(k, p).transpose(); });
+    out += (is_centre ? 1.0 : 0.5) * solver.at(row).transpose();
   }
   return out;
 }

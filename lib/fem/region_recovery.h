@@ -4,6 +4,7 @@
 // takes the mean of the polynomials of its two corners.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lib/fem/element_mesh.h"
@@ -33,6 +34,11 @@ class RegionRecovery {
   const std::vector<int>& nodes() const { return nodes_; }
   SixColumns at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const;
 
+  // The values at one of nodes(). `at_point` gives those of element k at its point p; it is called for the points of
+  // the patches around the node only.
+  using AtPoint = std::function<Vec6(int k, int p)>;
+  Vec6 at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const;
+
   // Nodes of each element, as indices into nodes().
   const Cells& cells() const { return cells_; }
 
@@ -47,7 +53,11 @@ class RegionRecovery {
   void add_middles(const ElementType& type, const std::vector<int>& patch_of);
   Eigen::Matrix3Xd places_of(const std::vector<int>& elements) const;
   template <int kCoefficients>
+  class PatchSolver;
+  template <int kCoefficients>
   SixColumns at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const;
+  template <int kCoefficients>
+  Vec6 at_node_with(const ElementMesh& mesh, int row, const AtPoint& at_point) const;
 
   std::vector<int> nodes_;
   Cells cells_;

@@ -72,6 +72,16 @@ StressRecovery::NodalValues StressRecovery::at_nodes_of_region(std::size_t regio
   return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, s, pick)))};
 }
 
+std::optional<Vec6> StressRecovery::at_node_of_region(std::size_t region, int node, const NodalState& s,
+                                                      const Pick& pick) const {
+  const ElasticTerm& term = *terms_[region];
+  const RegionRecovery& recovery = regions()[region].recovery;
+  const auto found = std::find(recovery.nodes().begin(), recovery.nodes().end(), node);
+  if (found == recovery.nodes().end()) return std::nullopt;
+  const auto row = static_cast<int>(found - recovery.nodes().begin());
+  return recovery.at_node(ElementMesh(mesh_), row, [&](int k, int p) { return pick(term.observe_point(k, p, s)); });
+}
+
 std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) const {
   const ElementMesh mesh(mesh_);
   std::vector<RegionMeshError> all;

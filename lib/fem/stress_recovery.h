@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "lib/fem/region_recovery.h"
@@ -45,6 +46,11 @@ class StressRecovery {
     SixColumns values;              // one row per node
   };
   NodalValues at_nodes_of_region(std::size_t region, const NodalState& s, const Pick& pick) const;
+
+  // The values of at_nodes_of_region() at one node of the mesh, from the elements around it; empty if the node is not
+  // of the region. Precondition: one rank.
+  std::optional<Vec6> at_node_of_region(std::size_t region, int node, const NodalState& s, const Pick& pick) const;
+  bool has_ranks() const { return subdomain_ != nullptr; }
 
   // Error estimates of all terms, for their elements on this rank.
   std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;

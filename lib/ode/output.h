@@ -46,6 +46,14 @@ class StateView {
   // Values of one output in its unit. Components vary fastest, then nodes or cells in the order of Geometry.
   // Precondition: `name` is one of the source's outputs(). Throws RecoverableError if it cannot be evaluated.
   virtual std::vector<double> evaluate(const std::string& name) const = 0;
+
+  // The components of one output at a node, from the node alone if that costs less. Precondition: the output is given
+  // at nodes, with so many components.
+  virtual std::vector<double> evaluate_at(const std::string& name, int node, int components) const {
+    const auto all = evaluate(name);
+    const auto first = all.begin() + std::ptrdiff_t{components} * node;
+    return {first, first + components};
+  }
 };
 
 class OutputSource {
@@ -80,15 +88,27 @@ class ObservedState {
   // Makes evaluate() return known values of an output. `values` must outlive this object.
   void share(const std::string& name, std::span<const double> values) const { shared_[name] = values; }
 
-  // As StateView::evaluate().
+  // As StateView::evaluate() and evaluate_at().
   std::vector<double> evaluate(const std::string& name) const {
     if (const auto found = shared_.find(name); found != shared_.end())
       return {found->second.begin(), found->second.end()};
-    if (!view_) view_ = source_.view(state_);
-    return view_->evaluate(name);
+    return view().evaluate(name);
+  }
+  std::vector<double> evaluate_at(const std::string& name, int node, int components) const {
+    if (const auto found = shared_.find(name); found != shared_.end()) {
+      const auto own =
+          found->second.subspan(static_cast<std::size_t>(components * node), static_cast<std::size_t>(components));
+      return {own.begin(), own.end()};
+    }
+    return view().evaluate_at(name, node, components);
   }
 
  private:
+  const StateView& view() const {
+    if (!view_) view_ = source_.view(state_);
+    return *view_;
+  }
+
   const OutputSource& source_;
   const State& state_;
   mutable std::unique_ptr<StateView> view_;

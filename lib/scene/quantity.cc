@@ -44,11 +44,11 @@ Quantity make_quantity(const std::string& name, const Source& source, const std:
   Quantity quantity{name, source.info.unit == "1" ? "" : source.info.unit};
   if (component.empty()) quantity.choices = source.info.component_names;
   quantity.values = [source, component](const ObservedState& observed) {
-    const auto all = observed.evaluate(source.info.name);
-    const auto first = source.node < 0 ? 0 : std::ptrdiff_t{source.node} * source.info.components;
+    auto own = source.node < 0 ? observed.evaluate(source.info.name)
+                               : observed.evaluate_at(source.info.name, source.node, source.info.components);
     // For det_f.smallest, only the value is taken, without the element.
-    const auto count = std::max<std::ptrdiff_t>(std::ssize(source.info.component_names), 1);
-    return pick(source, {all.begin() + first, all.begin() + first + count}, component);
+    own.resize(std::max<std::size_t>(source.info.component_names.size(), 1));
+    return pick(source, own, component);
   };
   return quantity;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lib/fem/fem_state_view.h"
 #include "tests/fem/built_scene.h"
@@ -76,6 +77,44 @@ TEST_P(Views, ATensorIsRecoveredOnceForAllThatIsMadeOfIt) {
   EXPECT_EQ(tensor_at_nodes(view.recovered(), counted, 0).size(), 6 * scene.mesh().nodes.size());
   EXPECT_EQ(looks, once);
   EXPECT_EQ(&view.mesh_errors(), &view.mesh_errors());
+}
+
+// At a node inside of a region, at one between regions and at edge midpoints, alone and after the whole field.
+TEST(StateView, GivesANodeAsTheWholeFieldDoes) {
+  Random random{17};
+  for (const int order : {1, 2}) {
+    const BuiltTestScene scene(fmt::format(R"(
+mesh: {{type: box, size: [2, 1, 0.5], cells: [4, 2, 1], order: {}, parts: {{left: {{min: [0, 0, 0], max: [1, 1, 1]}}}}}}
+materials: {{m: {}}}
+regions: {{left: {{material: m}}, body: {{material: m, axes: {}}}}}
+clamps: [{{surface: x0}}]
+time: {{end: 1}}
+)",
+                                           order, fibre_material(10), kTurnedAxes));
+    const State state{0, random_dofs(random, scene.size(), 0.02), random_dofs(random, scene.size(), 1)};
+    const auto nodes = static_cast<int>(scene.mesh().nodes.size());
+    for (const OutputInfo& output : scene.model().outputs()) {
+      if (output.location != Location::node) continue;
+      const auto all = scene.model().evaluate(output.name, state);
+      const auto largest = std::accumulate(all.begin(), all.end(), 0.0, [](double most, double value) {
+        return std::isfinite(value) ? std::max(most, std::abs(value)) : most;
+      });
+      const auto view = scene.model().view(state);
+      for (const bool is_known : {false, true}) {
+        if (is_known) view->evaluate(output.name);
+        for (int node = 0; node < nodes; node += 3) {
+          const auto own = view->evaluate_at(output.name, node, output.components);
+          ASSERT_EQ(std::ssize(own), output.components) << output.name;
+          for (int c = 0; c < output.components; ++c) {
+            const double given = own[static_cast<std::size_t>(c)],
+                         wanted = all[static_cast<std::size_t>(node * output.components + c)];
+            ASSERT_EQ(std::isnan(given), std::isnan(wanted)) << output.name << " at node " << node;
+            if (!std::isnan(given)) ASSERT_NEAR(given, wanted, 1e-11 * largest) << output.name << " at node " << node;
+          }
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

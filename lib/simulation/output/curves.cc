@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 namespace orthodyn {
 
@@ -26,7 +25,11 @@ OutputInfo info_of(const Model& model, const std::string& field) {
 }
 
 std::vector<ProbeColumn> with_components(const Model& model, std::vector<ProbeColumn> columns) {
-  for (auto& column : columns) column.components = info_of(model, column.field).components;
+  for (auto& column : columns) {
+    const OutputInfo info = info_of(model, column.field);
+    column.components = info.components;
+    column.at_node = info.location == Location::node;
+  }
   return columns;
 }
 
@@ -55,13 +58,11 @@ void ProbeWriter::on_start(const ObservedState& observed) {
 }
 
 void ProbeWriter::on_history(const ObservedState& observed) {
-  std::map<std::string, std::vector<double>> fields;
   std::vector<double> row{observed.t()};
   for (const auto& column : columns_) {
-    auto [it, missing] = fields.try_emplace(column.field);
-    if (missing) it->second = observed.evaluate(column.field);
-    const auto first = it->second.begin() + std::ptrdiff_t{column.components} * column.node;
-    row.insert(row.end(), first, first + column.components);
+    const auto values = column.at_node ? observed.evaluate_at(column.field, column.node, column.components)
+                                       : observed.evaluate(column.field);
+    row.insert(row.end(), values.begin(), values.end());
   }
   file_.row(row);
 }

@@ -74,10 +74,11 @@ class StepWriter : public TableWriter {
 
 // A column group of probes.csv.
 struct ProbeColumn {
-  std::string name;    // "tip"; empty for an output of the whole body
-  int node;            // 0 for an output of the whole body
-  std::string field;   // a nodal output such as "displacement", or "reaction.clamp_1"
-  int components = 0;  // number of the field's components; set by ProbeWriter
+  std::string name;      // "tip"; empty for an output of the whole body
+  int node;              // 0 for an output of the whole body
+  std::string field;     // a nodal output such as "displacement", or "reaction.clamp_1"
+  int components = 0;    // number of the field's components; set by ProbeWriter
+  bool at_node = false;  // whether it is a nodal output; set by ProbeWriter
 };
 
 class ProbeWriter : public TableWriter {
