@@ -187,23 +187,26 @@ class RegionRecovery::PatchSolver {
  public:
   using Row = Eigen::Matrix<double, 1, 6>;
 
-  PatchSolver(const RegionRecovery& region, const ElementMesh& mesh) : region_(region), mesh_(mesh) {}
+  PatchSolver(const RegionRecovery& region, const ElementMesh& mesh) : region_(region), mesh_(mesh) {
+    std::size_t most = 0;
+    for (const Patch& patch : region.patches_) most = std::max(most, patch.elements.size());
+    monomials_.resize(region.per_element_ * static_cast<Eigen::Index>(most), kCoefficients);
+    values_.resize(monomials_.rows(), 6);
+  }
 
   // `values`: of element k at its point p.
   template <class Values>
   void fit(const Patch& patch, Values&& values) {
     patch_ = &patch;
-    const Eigen::Index count = region_.per_element_ * std::ssize(patch.elements);
-    monomials_.resize(count, kCoefficients);
-    values_.resize(count, 6);
-    Eigen::Index i = 0;
+    Eigen::Index count = 0;
     for (const int k : patch.elements)
-      for (int p = 0; p < region_.per_element_; ++p, ++i) {
-        monomials_.row(i) = relative(region_.places_.col(region_.per_element_ * k + p));
-        values_.row(i) = values(k, p);
+      for (int p = 0; p < region_.per_element_; ++p, ++count) {
+        monomials_.row(count) = relative(region_.places_.col(region_.per_element_ * k + p));
+        values_.row(count) = values(k, p);
       }
-    mean_ = values_.colwise().mean();
-    slopes_ = patch.fit.inverse * monomials_.transpose().lazyProduct(values_).eval();
+    mean_ = values_.topRows(count).colwise().mean();
+    const Slopes moments = monomials_.topRows(count).transpose().lazyProduct(values_.topRows(count));
+    slopes_ = patch.fit.inverse.topLeftCorner<kCoefficients, kCoefficients>().lazyProduct(moments);
   }
 
   // The polynomial at a node, an index into nodes().
@@ -215,16 +218,19 @@ class RegionRecovery::PatchSolver {
  private:
   Eigen::Matrix<double, 1, kCoefficients> relative(const Vec3& place) const {
     const PatchFit& fit = patch_->fit;
-    return (monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - fit.means).transpose();
+    return (monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - fit.means.head<kCoefficients>())
+        .transpose();
   }
 
+  using Slopes = Eigen::Matrix<double, kCoefficients, 6>;
   const RegionRecovery& region_;
   const ElementMesh& mesh_;
   const Patch* patch_ = nullptr;
-  Eigen::Matrix<double, Eigen::Dynamic, kCoefficients> monomials_;  // one row per point
+  Eigen::Matrix<double, Eigen::Dynamic, kCoefficients>
+      monomials_;  // one row per point, as many as the largest patch has
   Eigen::Matrix<double, Eigen::Dynamic, 6> values_;
   Row mean_;
-  Eigen::Matrix<double, kCoefficients, 6> slopes_;
+  Slopes slopes_;
 };
 
 template <int kCoefficients>
