@@ -174,6 +174,21 @@ TEST(ErrorBalance, TellsTheLargerErrorAndWhatToChange) {
   EXPECT_EQ(advice(moved(1, 1e-3, std::nullopt, 1e-3)), "");
 }
 
+// With a model, only the state with the largest elastic energy is evaluated.
+TEST(MeshError, OfTheMostDeformedState) {
+  const BuiltTestScene s = box(1);
+  const auto bent = [&](double size) { return s.dofs([&](const Vec3& X) { return Vec3(0, size * X[0] * X[0], 0); }); };
+  const State small{0, bent(0.01), s.zero()}, large{1, bent(0.03), s.zero()};
+  MeshErrorRecorder one(1), of_all(3, &s.model());
+  one.on_output({s.model(), large});
+  for (const State* state : {&small, &large, &small}) of_all.on_output({s.model(), *state});
+  ASSERT_TRUE(one.found() && of_all.found());
+  EXPECT_GT(one.found()->relative, 0.01);
+  EXPECT_DOUBLE_EQ(of_all.found()->relative, one.found()->relative);
+  EXPECT_EQ(of_all.found()->samples, 1);
+  EXPECT_EQ(of_all.most_deformed()->t, 1);
+}
+
 TEST(MeshError, OfARigidMotionIsNotTold) {
   const BuiltTestScene s = box(1);
   const Vector still = s.zero(), v = s.dofs([](const Vec3&) { return Vec3(1, 2, 3); });
