@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/core/symmetric_eigen.h"
@@ -16,6 +18,7 @@ namespace orthodyn {
 namespace {
 
 constexpr int kDenseUnknowns = 300;
+constexpr double kRough = 1e-2;  // tolerance from which on a small basis suffices
 
 // Operators for Spectra: A x, and B with its solver.
 struct SymmetricProduct {
@@ -42,23 +45,22 @@ struct DefiniteOperator {
 };
 
 NegativeEigenPairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
-                               int count) {
+                               double bound, int count) {
   const auto pairs = symmetric_eigenpairs(dense_symmetric(pattern, A), dense_symmetric(pattern, B));
-  return {pairs.values.head(count), pairs.vectors.leftCols(count)};
+  const Eigen::Index found = std::min<Eigen::Index>(count, (pairs.values.array() < bound).count());
+  return {pairs.values.head(found), pairs.vectors.leftCols(found)};
 }
 
-NegativeEigenPairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, Spectra::SortRule rule,
-                           double tolerance) {
-  const int basis = std::min(a.pattern.n, std::max(4 * count, 40));
+// Empty if the iteration does not converge.
+std::optional<NegativeEigenPairs> lanczos(SymmetricProduct a, DefiniteOperator& b, int count, Spectra::SortRule rule,
+                                          double tolerance, int most_restarts) {
+  const int basis = std::min(a.pattern.n, tolerance < kRough ? std::max(4 * count, 40) : 4 * count + 8);
   Spectra::SymGEigsSolver<SymmetricProduct, DefiniteOperator, Spectra::GEigsMode::RegularInverse> solver(a, b, count,
                                                                                                          basis);
   solver.init();
-  constexpr int kMostRestarts = 300;
-  const auto found = solver.compute(rule, kMostRestarts, tolerance, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful)
-    throw RunError(fmt::format("{} of {} eigenpairs converged in {} restarts of the Lanczos iteration; request fewer",
-                               found, count, kMostRestarts));
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  solver.compute(rule, most_restarts, tolerance, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  return NegativeEigenPairs{solver.eigenvalues(), solver.eigenvectors()};
 }
 
 // A + s B
@@ -82,18 +84,34 @@ std::vector<double> divided(const std::vector<double>& values, double by) {
   return out;
 }
 
-// Precondition: A and B are scaled so that B and B^-1 A are of size one.
+// The `count` lowest eigenpairs below `bound`, or as many as there are. Precondition: A and B are scaled so that B and
+// B^-1 A are of size one.
 NegativeEigenPairs lanczos_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
-                                 LinearSolver& solver, int count) {
+                                 LinearSolver& solver, double bound, int count) {
+  constexpr int kMostRestarts = 300, kFirstRestarts = 20;
   const SymmetricProduct a{pattern, A}, b{pattern, B};
   DefiniteOperator inverse{b, solver};
   // Spectra's tolerance is relative to each eigenvalue, which is too strict for those near zero. Shifting all
   // eigenvalues by a little more than the largest magnitude makes the tolerance relative to that magnitude.
-  const double raised = 1.1 * std::abs(lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, 1e-2).values[0]);
+  const auto largest = lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, kRough, kMostRestarts);
+  if (!largest) throw RunError("the Lanczos iteration does not find the largest eigenvalue");
+  const double raised = 1.1 * std::abs(largest->values[0]);
   const auto positive = sum(A, raised, B);
-  NegativeEigenPairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
-  pairs.values.array() -= raised;
-  return pairs;
+  const auto lowest = [&](int wanted, int restarts) {
+    auto pairs = lanczos({pattern, positive}, inverse, wanted, Spectra::SortRule::SmallestAlge, 1e-10, restarts);
+    if (pairs) pairs->values.array() -= raised;
+    return pairs;
+  };
+  // Counting the eigenvalues below the bound takes an indefinite factor, which costs more than the iteration. It is not
+  // needed if all that the iteration finds are below.
+  if (auto pairs = lowest(count, kFirstRestarts); pairs && pairs->values[count - 1] < bound) return *std::move(pairs);
+  count = std::min(count, count_below(pattern, A, B, bound));
+  if (count == 0) return {};
+  auto pairs = lowest(count, kMostRestarts);
+  if (!pairs)
+    throw RunError(fmt::format("{} eigenpairs did not converge in {} restarts of the Lanczos iteration; request fewer",
+                               count, kMostRestarts));
+  return *std::move(pairs);
 }
 
 }  // namespace
@@ -103,16 +121,15 @@ NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector
   if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
   const double unit_of_B = nearest_power_of_two(diagonal(pattern, B_given).mean());
   const auto B = divided(B_given, unit_of_B);
-  const auto solver = make_linear_solver("cholmod", pattern);
+  const auto solver = make_solver_for(pattern);
   if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
   const double unit = nearest_power_of_two(operator_norm(
       pattern.n, [&](const Vector& x, Vector& y) { pattern.multiply(A_given.data(), x, y); },
       [&](const Vector& y, Vector& x) { solver->solve(y / unit_of_B, x); }));
   const auto A = divided(A_given, unit * unit_of_B);
-  count = std::min(count, count_below(pattern, A, B, -bound / unit));
-  if (count == 0) return {};
-  NegativeEigenPairs pairs =
-      pattern.n <= kDenseUnknowns ? dense_pairs(pattern, A, B, count) : lanczos_pairs(pattern, A, B, *solver, count);
+  NegativeEigenPairs pairs = pattern.n <= kDenseUnknowns ? dense_pairs(pattern, A, B, -bound / unit, count)
+                                                         : lanczos_pairs(pattern, A, B, *solver, -bound / unit, count);
+  if (pairs.values.size() == 0) return {};
   pairs.values *= unit;
   pairs.shapes /= std::sqrt(unit_of_B);
   return pairs;
