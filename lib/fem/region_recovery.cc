@@ -252,7 +252,8 @@ Vec6 RegionRecovery::at_node_with(const ElementMesh& mesh, int row, const AtPoin
   for (const Patch& patch : patches_) {
     const bool is_centre = patch.row == row;
     if (!is_centre && std::find(patch.middles.begin(), patch.middles.end(), row) == patch.middles.end()) continue;
-    solver.fit(patch, [&](int k, int p) { return at_point(k, p).transpose(); });
+    solver.fit(patch,
+               [&](int k, int p) -> typename PatchSolver<kCoefficients>::Row { return at_point(k, p).transpose(); });
     out += (is_centre ? 1.0 : 0.5) * solver.at(row).transpose();
   }
   return out;
