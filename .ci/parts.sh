@@ -119,11 +119,16 @@ shipped_scenes() { ORTHODYN_LONG=1 nightly_tests '^shipped$'; }
 
 # Instructions of the kernels, against those of tools/bench/instructions.json.
 instructions() {
+  if grep -qw avx512f /proc/cpuinfo; then
+    say "not counted: callgrind cannot run AVX-512"
+    return
+  fi
   ensure valgrind valgrind
   if [[ ! -e /usr/include/benchmark/benchmark.h ]]; then install_packages libbenchmark-dev; fi
   logged configure-bench cmake -D ORTHODYN_BENCH=ON build/release
   build release --target orthodyn_bench
   tools/bench/instructions.py
+  logged configure-bench cmake -D ORTHODYN_BENCH=OFF build/release
 }
 
 # Every scene and the notebooks by the Python package.
@@ -167,11 +172,12 @@ debian13() {
 debian_package() {
   local other=build/ci/$1-installed
   bare_debian "$1" 'tools/package --deb x86-64-v3'
-  rm -rf "$other"
+  if mountpoint -q "$other/proc"; then umount "$other/proc"; fi
+  rm -rf --one-file-system "$other"
   bare_system "$1" "$1-installed"
   mkdir "$other/orthodyn"
   cp "build/ci/$1/orthodyn/build/"orthodyn_*.deb "$other/orthodyn"
-  in_system "$1-installed" 'apt-get update -q && apt-get install -qy --no-install-recommends ./orthodyn_*.deb &&
+  in_system "$1-installed" 'apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends ./orthodyn_*.deb &&
     orthodyn init scene part.yaml && orthodyn run part.yaml --out part && orthodyn view part && test -s part/view.html'
 }
 package12() { debian_package bookworm; }

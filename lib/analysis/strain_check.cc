@@ -93,12 +93,12 @@ double smallest(const std::array<AxisLimits, 3>& limits) {
   return least;
 }
 
-// Whether Green's strain is so large that the law's strain may exceed a limit.
-bool is_near_limit(const ElasticTerm& term, const NodalState& state) {
-  if (term.definition().options.kinematics == Kinematics::linear) return false;
+// The norm of Green's strain up to which the law's strain cannot exceed a limit.
+double safe_green_strain(const ElasticTerm& term) {
+  if (term.definition().options.kinematics == Kinematics::linear) return std::numeric_limits<double>::infinity();
   const Stiffness& stiffness = term.definition().stiffness;
   const double largest_ratio = kMargin * stress_over_young(stiffness).rowwise().norm().maxCoeff();
-  return term.largest_green_strain(state) >= smallest(strain_limits(stiffness)) / largest_ratio;
+  return smallest(strain_limits(stiffness)) / largest_ratio;
 }
 
 }  // namespace
@@ -129,15 +129,23 @@ Warnings strain_warnings(const FemModel& model, const State& initial, const Stat
   return out;
 }
 
-bool is_near_strain_limit(const FemModel& model, const NodalState& state) {
-  return std::any_of(model.parts().elastic.begin(), model.parts().elastic.end(),
-                     [&](const auto& term) { return is_near_limit(*term, state); });
+std::vector<double> safe_green_strains(const FemModel& model) {
+  std::vector<double> safe;
+  for (const auto& term : model.parts().elastic) safe.push_back(safe_green_strain(*term));
+  return safe;
+}
+
+bool is_near_strain_limit(const FemModel& model, const std::vector<double>& safe, const NodalState& state) {
+  for (std::size_t r = 0; r < safe.size(); ++r)
+    if (std::isfinite(safe[r]) && model.parts().elastic[r]->largest_green_strain(state) >= safe[r]) return true;
+  return false;
 }
 
 std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state) {
   std::optional<StrainExcess> worst;
   for (const auto& term : model.parts().elastic) {
-    if (!is_near_limit(*term, state)) continue;
+    const double safe = safe_green_strain(*term);
+    if (!std::isfinite(safe) || term->largest_green_strain(state) < safe) continue;
     const Stiffness& stiffness = term->definition().stiffness;
     const Excess excess =
         find_excess(*term, strain_limits(stiffness), stress_over_young(stiffness) * term->strains(state));

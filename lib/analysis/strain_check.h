@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/analysis/static_response.h"
 
@@ -22,8 +23,10 @@ struct StrainExcess {
   double share = 0;      // strain divided by its limit
   std::string sentence;  // "region wood: the motion strained 3 of 400 elements along material axis 1 to ..."
 };
-// Whether any region may exceed a limit, by a bound that costs little. Otherwise strain_excess() finds nothing.
-bool is_near_strain_limit(const FemModel& model, const NodalState& state);
+// For each elastic term a norm of Green's strain up to which no limit is exceeded; infinite if the term has no limit.
+std::vector<double> safe_green_strains(const FemModel& model);
+// Whether any term exceeds its norm. Otherwise strain_excess() finds nothing.
+bool is_near_strain_limit(const FemModel& model, const std::vector<double>& safe, const NodalState& state);
 std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state);
 
 // Whether any corotational region has a strain limit that a body can reach, in a model of any size.

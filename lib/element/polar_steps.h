@@ -154,7 +154,7 @@ auto decompose_unit(const Mat3T<T>& F, Polar<T>& p) {
 }
 
 // Decomposes F near a rotation by X <- X (I + E/2 + 3 E^2/8) with E = I - X^T X from X = F, the first terms of
-// X (X^T X)^(-1/2) (Higham 2008, Functions of Matrices, sect. 8.6): |E| becomes 5/16 |E|^3, and no division is needed.
+// X (X^T X)^(-1/2) (Higham 2008, Functions of Matrices, sect. 8.6): |E| becomes 5/8 |E|^3, and no division is needed.
 // Returns false, with p invalid, unless |E| <= 1/2 and det F > 0 in all lanes. `good`: lanes exact to round-off.
 template <class T, class Mask>
 bool decompose_near_rotation(const Mat3T<T>& F, Polar<T>& p, Mask& good) {

@@ -134,7 +134,10 @@ std::vector<double> FemStateView::evaluate_at(const std::string& name, int node,
   const FemOutput output = find_output(parts_, name);
   if (output.compute_at && (!parts_.subdomain || output.reduction == Reduction::none))
     return output.compute_at(*this, node);
-  return StateView::evaluate_at(name, node, components);
+  const auto [field, is_new] = whole_fields_.try_emplace(name);
+  if (is_new) field->second = evaluate(name);
+  const auto first = field->second.begin() + std::ptrdiff_t{components} * node;
+  return {first, first + components};
 }
 
 }  // namespace orthodyn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,7 @@ class FemStateView : public StateView {
   mutable std::optional<NodalVector> momentum_, support_forces_;
   mutable std::optional<RecoveredTensors> recovered_;
   mutable std::optional<std::vector<RegionMeshError>> mesh_errors_;
+  mutable std::map<std::string, std::vector<double>> whole_fields_;  // of all ranks, for evaluate_at()
 };
 
 // How the values of several ranks are combined. `minimum` and `maximum` compare the first value; a second value is its

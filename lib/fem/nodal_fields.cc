@@ -59,7 +59,7 @@ std::vector<std::size_t> regions_of(int region, std::size_t count) {
   return all;
 }
 
-// Replaces the values at `at` if they are NaN or their first is smaller.
+// Replaces the values at `at` if the first of them is NaN or less than values[0].
 void raise(const std::vector<double>& values, double* at) {
   if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
 }
@@ -115,7 +115,11 @@ const StressRecovery::NodalValues& RecoveredTensors::of(const TensorField& tenso
 
 std::optional<Vec6> RecoveredTensors::at(const TensorField& tensor, std::size_t region, int node) {
   const auto kept = kept_.find({&tensor, region});
-  if (kept == kept_.end() && !recovery_.has_ranks()) return recovery_.at_node_of_region(region, node, state_, tensor);
+  if (kept == kept_.end() && !recovery_.has_ranks()) {
+    const auto [own, is_new] = kept_at_.try_emplace({&tensor, region, node});
+    if (is_new) own->second = recovery_.at_node_of_region(region, node, state_, tensor);
+    return own->second;
+  }
   const auto& [nodes, values] = of(tensor, region);
   const auto found = std::find(nodes->begin(), nodes->end(), node);
   if (found == nodes->end()) return std::nullopt;

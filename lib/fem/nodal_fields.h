@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,7 @@ class RecoveredTensors {
   const StressRecovery& recovery_;
   NodalState state_;
   std::map<std::pair<const TensorField*, std::size_t>, StressRecovery::NodalValues> kept_;
+  std::map<std::tuple<const TensorField*, std::size_t, int>, std::optional<Vec6>> kept_at_;
 };
 
 // Values at all nodes of the mesh, node by node; NaN outside the region. `region`: index of an elastic term, or -1 for

@@ -1,10 +1,10 @@
 // Sparse Cholesky in double precision; in single precision where the wanted tolerance permits, for half the time and
 // memory.
 //
-// Single precision serves corrections of Newton's method, which the next iteration corrects. The first solution with
-// each factor is refined once, which shows its error. If this is larger than 1e-3, each solution is refined.
-// If refinement does not converge well, or if a pivot is not positive (perhaps by round-off), this and the next ten
-// factorisations are in double precision.
+// Single precision serves corrections of Newton's method, which the next iteration corrects, and preconditioners. The
+// first solution with each factor is refined once, which shows its error. If this is larger than 1e-3, each solution is
+// refined. If refinement does not converge well, or if a pivot is not positive (perhaps by round-off), this and the
+// next ten factorisations are in double precision.
 #include <fmt/format.h>
 
 #include <cmath>

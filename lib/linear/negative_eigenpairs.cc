@@ -44,11 +44,16 @@ struct DefiniteOperator {
   }
 };
 
+NegativeEigenPairs first_below(const NegativeEigenPairs& pairs, double bound) {
+  const Eigen::Index count = (pairs.values.array() < bound).count();
+  return {pairs.values.head(count), pairs.shapes.leftCols(count)};
+}
+
 NegativeEigenPairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
                                double bound, int count) {
   const auto pairs = symmetric_eigenpairs(dense_symmetric(pattern, A), dense_symmetric(pattern, B));
-  const Eigen::Index found = std::min<Eigen::Index>(count, (pairs.values.array() < bound).count());
-  return {pairs.values.head(found), pairs.vectors.leftCols(found)};
+  const Eigen::Index most = std::min<Eigen::Index>(count, pairs.values.size());
+  return first_below({pairs.values.head(most), pairs.vectors.leftCols(most)}, bound);
 }
 
 // Empty if the iteration does not converge.
@@ -88,7 +93,7 @@ std::vector<double> divided(const std::vector<double>& values, double by) {
 // B^-1 A are of size one.
 NegativeEigenPairs lanczos_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
                                  LinearSolver& solver, double bound, int count) {
-  constexpr int kMostRestarts = 300, kFirstRestarts = 20;
+  constexpr int kMostRestarts = 300, kFirstRestarts = 20, kMostUncounted = 20;
   const SymmetricProduct a{pattern, A}, b{pattern, B};
   DefiniteOperator inverse{b, solver};
   // Spectra's tolerance is relative to each eigenvalue, which is too strict for those near zero. Shifting all
@@ -102,10 +107,11 @@ NegativeEigenPairs lanczos_pairs(const Pattern& pattern, const std::vector<doubl
     if (pairs) pairs->values.array() -= raised;
     return pairs;
   };
-  // Counting the eigenvalues below the bound takes an indefinite factor, which costs more than the iteration. It is not
-  // needed if all that the iteration finds are below.
-  if (auto pairs = lowest(count, kFirstRestarts); pairs && pairs->values[count - 1] < bound) return *std::move(pairs);
-  count = std::min(count, count_below(pattern, A, B, bound));
+  // Counting the eigenvalues below the bound takes an indefinite factor, which costs more than the iteration for a few
+  // pairs. If it converges, the lowest are found, whether they are below the bound or not.
+  if (count <= kMostUncounted)
+    if (const auto pairs = lowest(count, kFirstRestarts)) return first_below(*pairs, bound);
+  count = std::min({count, count_below(pattern, A, B, bound), pattern.n - 1});
   if (count == 0) return {};
   auto pairs = lowest(count, kMostRestarts);
   if (!pairs)

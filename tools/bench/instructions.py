@@ -63,9 +63,9 @@ def instructions(bench, kernel):
 def key_of(told):
     vectors = re.search(r'"vectors":"([^"]*)"', told)
     compiler = re.search(r"^(\w+ \d+)[.\d]* -", told, re.MULTILINE)
+    if not vectors or not compiler:
+        raise CountError("orthodyn_bench does not tell vectors and compiler")
     return f"{vectors[1]}, {compiler[1]}"
-
-
 
 
 def main():

@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// Whether finer elements are affordable, and the model is on one rank.
+// Whether finer elements are affordable, the model is on one rank, and its tangent is symmetric.
 bool allows_finer_elements(const FemModel& model);
 
 // Estimates the mesh error of a state by finer elements, including the errors of probed fields (MeshError::probed). If

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/fem_model.h"
 #include "lib/simulation/output/observer.h"
 
 namespace orthodyn {
@@ -38,8 +39,9 @@ struct MeshError {
 class MeshErrorRecorder : public Observer {
  public:
   // Evaluates at most 8 of the `outputs` outputs, including the last. With a model, found() evaluates only the most
-  // deformed of these states, by elastic energy: for a run whose estimate by finer elements needs no other.
-  explicit MeshErrorRecorder(std::size_t outputs, const Model* only_most_deformed = nullptr);
+  // deformed of these states, by the elements' elastic energy: for a run whose estimate by finer elements needs no
+  // other. It is then the result of such a run if that estimate fails, or if the run does not complete.
+  explicit MeshErrorRecorder(std::size_t outputs, const FemModel* only_most_deformed = nullptr);
   void on_output(const ObservedState& observed) override;
 
   // Evaluates a state other than an output.
@@ -53,7 +55,7 @@ class MeshErrorRecorder : public Observer {
   const std::optional<State>& most_deformed() const { return most_deformed_; }
 
  private:
-  const Model* only_most_deformed_;
+  const FemModel* only_most_deformed_;
   std::size_t outputs_, stride_, seen_ = 0;
   double error_ = 0, elastic_ = 0, kinetic_ = 0;  // sums, J
   int samples_ = 0;

@@ -17,7 +17,7 @@ void StrainWatch::observe(const ObservedState& observed) {
   last_evaluation_ = observed.t();
   const State& state = observed.state();
   const NodalExpansion nodal(model_.parts(), times_ ? times_->at(state.t) : state.t, state.q, state.v);
-  if (!model_.space().any(is_near_strain_limit(model_, nodal.state()))) return;
+  if (!model_.space().any(is_near_strain_limit(model_, safe_, nodal.state()))) return;
   const double energy = observed.evaluate("energy.elastic")[0];
   if (!(energy > largest_energy_)) return;
   largest_energy_ = energy;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/analysis/strain_check.h"
 #include "lib/simulation/output/observer.h"
@@ -43,11 +44,12 @@ class StrainWatch : public Observer {
   static constexpr double kEvaluations = 200;
 
   StrainWatch(const FemModel& model, const std::optional<PathTimes>& times, double interval)
-      : model_(model), times_(times), interval_(interval) {}
+      : model_(model), safe_(safe_green_strains(model)), times_(times), interval_(interval) {}
   void observe(const ObservedState& observed);
   std::optional<StrainExcess> of_all_ranks(std::optional<StrainExcess> here) const;
 
   const FemModel& model_;
+  std::vector<double> safe_;  // safe_green_strains()
   std::optional<PathTimes> times_;
   double interval_, last_evaluation_ = -std::numeric_limits<double>::infinity();  // s
   double largest_energy_ = 0;                                                     // J
