@@ -34,8 +34,8 @@ class RegionRecovery {
   const std::vector<int>& nodes() const { return nodes_; }
   SixColumns at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const;
 
-  // The values at one of nodes(). `at_point` gives those of element k at its point p; it is called for the points of
-  // the patches around the node only.
+  // The values recovered at one node; `row` is its index in nodes(). `at_point` returns the values of element k at its
+  // point p. It is called only for the points of the patches around the node.
   using AtPoint = std::function<Vec6(int k, int p)>;
   Vec6 at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const;
 

@@ -47,8 +47,8 @@ class DenseBlocks {
     }
   }
 
-  // Computes the first n columns of the Cholesky factor of a symmetric m x m matrix. In: the lower trapezoid of its
-  // first n columns. Out: that of the factor. False if a pivot is not positive.
+  // Computes the first n columns of the Cholesky factor of a symmetric m x m matrix. `a` has the lower trapezoid of
+  // the matrix's first n columns, and gets the trapezoid of the factor. Returns false if a pivot is not positive.
   bool factor(int m, int n, T* a, std::size_t stride) {
     reserve_identity(m);
     for (int j = 0; j < n; j += kPanelColumns) {

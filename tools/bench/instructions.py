@@ -5,8 +5,8 @@ other work of the machine.
     tools/bench/instructions.py [--write] [BUILD]
 
 BUILD (build/release) has orthodyn_bench (cmake -D ORTHODYN_BENCH=ON). Prints a table beside the counts of
-tools/bench/instructions.json; exits with 1 if a kernel needs over 10 % more. --write replaces these counts. Counts are
-compared only with those of the same vector instructions and compiler.
+tools/bench/instructions.json; exits with 1 if a kernel needs over 10 % more. --write replaces these counts. Recorded
+counts hold for one compiler and one set of vector instructions; without a matching record nothing is compared.
 """
 
 import argparse
@@ -19,7 +19,7 @@ from pathlib import Path
 
 RECORD = Path(__file__).with_name("instructions.json")
 MOST_GROWTH = 1.1
-# The functions of tools/bench/kernels.cc, whose instructions are counted with those of all that they call.
+# callgrind's pattern for the functions of tools/bench/kernels.cc that run a kernel. It counts their callees, too.
 MEASURED = "*orthodyn::bench::(anonymous namespace)::*(benchmark::State&, orthodyn::bench::BentBeam const&)"
 KERNELS = (
     "force/2,700",

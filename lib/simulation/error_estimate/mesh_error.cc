@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kStates = 8;
 constexpr double kDeformed = 1e-6;  // elastic over kinetic energy; less is a rigid-body motion
 
-// Elastic energy without that of springs and contact, J.
+// Elastic energy of the elements, J. Springs and contact are left out.
 double energy_of_elements(const FemModel& model, const State& state) {
   const NodalExpansion nodal(model.parts(), state.t, state.q, state.v);
   double sum = 0;
