@@ -143,6 +143,7 @@ each_source() {
 # bare_system RELEASE NAME: build/ci/NAME as debootstrap makes it. Needs root.
 bare_system() {
   ensure debootstrap debootstrap
+  mkdir -p build/ci
   if [[ ! -d build/ci/$2/usr ]]; then logged "debootstrap-$2" debootstrap --variant=minbase "$1" "build/ci/$2"; fi
   cp /etc/resolv.conf "build/ci/$2/etc/resolv.conf"
 }

@@ -3,6 +3,8 @@
 #include <arkode/arkode_arkstep.h>
 
 #include "integrators/fixed_step.h"
+#include "integrators/renewal_policy.h"
+#include "integrators/sundials/stage_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
 #include "lib/ode/hermite.h"
 
@@ -41,6 +43,7 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     check_mass_for_full_jacobian();
     if (method_.explicit_table) add_part(explicit_, method_.split.explicit_part ? *method_.split.explicit_part : model);
     if (method_.implicit_table) add_part(implicit_, model_);
+    if (newton_system_) renewal_.emplace(renewal_cost(model));
   }
 
   bool adaptive() const override { return !method_.step; }
@@ -83,10 +86,21 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     for (int attempt = 0;; ++attempt) {
       require(ARKStepSetStopTime(memory(), t_stop));
       sunrealtype reached = t;  // after a failure, the time of a stage
-      const int flag = ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
+      const int flag = evolve(t_stop, reached);
       if (flag >= 0) take_end(t = reached);
       if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == kMaxRetries || !retry_with_shorter_step()) return flag;
     }
+  }
+
+  int evolve(double t_stop, sunrealtype& reached) {
+    if (!renewal_) return ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
+    const int every = renewal_->is_due() ? 1 : 0;  // 0: the library's default, after 20 and 51 steps
+    require(ARKStepSetLSetupFrequency(memory(), every));
+    require(ARKStepSetJacEvalFrequency(memory(), every));
+    const long solves = statistics_.solve.count, tangents = statistics_.tangent.count;
+    const int flag = ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
+    renewal_->note(statistics_.solve.count - solves, statistics_.tangent.count > tangents);
+    return flag;
   }
 
   // ARKODE gives up if the force fails in an explicit stage. This function restarts the step with a quarter of its
@@ -175,12 +189,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     void* m = memory();
     require(ARKStepSetNonlinConvCoef(m, options_.nonlinear_coefficient));
     require(ARKStepSetMaxNonlinIters(m, options_.max_newton_iterations));
-    if (!model_.traits().smooth) use_nonsmooth_newton();
-    newton_system_->create_first_order(context_, [this] {
-      sunrealtype gamma = 0;
-      ARKStepGetCurrentGamma(memory(), &gamma);
-      return gamma;
-    });
+    model_.traits().smooth ? use_stage_newton() : use_nonsmooth_newton();
+    newton_system_->create_first_order(context_, [this] { return gamma(); });
     attach_linear_solver();
     require(newton_system_->is_full() ? ARKStepSetJacFn(m, fill_jacobian) : ARKStepSetLinSysFn(m, linearize));
     // The derivative of a stage is deduced from the solution of the stage. A force evaluated there would multiply the
@@ -189,9 +199,19 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     // Predictor 2 extrapolates early stages with a high order and late stages with a low order. It needs half the
     // iterations of the library's default predictor, the last solution.
     require(ARKStepSetPredictorMethod(m, 2));
-    // The convergence rate of earlier iterations is not used. It is nearly zero for a linear model, so Newton's method
-    // would stop after one iteration even if gamma had changed.
-    require(ARKStepSetNonlinCRDown(m, 1));
+  }
+
+  void use_stage_newton() {
+    const auto conditions = [this] { return StageNewton::Conditions{statistics_.factorization.count, gamma()}; };
+    stage_newton_.emplace(y(), context_, conditions, model_.traits().linear, newton_system_->least_rate());
+    require(ARKStepSetNonlinearSolver(memory(), stage_newton_->get()));
+    stage_newton_->replace_test();
+  }
+
+  double gamma() const {
+    sunrealtype gamma = 0;
+    ARKStepGetCurrentGamma(memory(), &gamma);
+    return gamma;
   }
 
   // Callbacks.
@@ -239,6 +259,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   ArkPart explicit_, implicit_;
   long retries_ = 0;     // steps restarted because a force could not be evaluated, since the last (re-)start
   StepEnd begin_, end_;  // ends of the last step
+  std::optional<StageNewton> stage_newton_;
+  std::optional<RenewalPolicy> renewal_;  // only with Newton's method
   std::unique_ptr<void, FreeArkStep> memory_;
 };
 

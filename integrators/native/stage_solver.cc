@@ -13,10 +13,8 @@ namespace {
 constexpr double kWeightDrift = 0.25;
 constexpr double kSameWeight = 1e-12;  // relative difference between equal steps by round-off
 constexpr double kLinearShare = 0.05;  // tolerance of an iterative linear solver / Newton's tolerance
-constexpr double kSlow = 0.5;          // convergence rate above which a new tangent pays
 // Relative to the scales: smaller corrections that do not shrink are round-off.
 constexpr double kCorrectionRoundOff = 1e-10;
-constexpr double kLeastContractionFactor = 1e-3;  // for nonlinear models; smaller values are round-off
 }  // namespace
 
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
@@ -29,6 +27,8 @@ StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const
       norm_(norm),
       statistics_(statistics),
       matrix_(model, options.linear_solver, options.tangent(), statistics),
+      renewal_(renewal_cost(model)),
+      remaining_(model.traits().linear),
       r_(model.num_dofs()),
       dx_(model.num_dofs()),
       guess_(model.num_dofs()),
@@ -41,6 +41,14 @@ void StageSolver::begin_step() {
 }
 
 bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
+  if (!stale_ && kind_ == NewtonKind::lazy && !model_.traits().linear) stale_ = renewal_.is_due();
+  const long iterations = statistics_.newton_iterations, tangents = statistics_.tangent.count;
+  const bool solved = try_solve(stage, x, q, v);
+  renewal_.note(statistics_.newton_iterations - iterations, statistics_.tangent.count > tangents);
+  return solved;
+}
+
+bool StageSolver::try_solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
   guess_ = x;
   const bool renew = stale_ || kind_ == NewtonKind::full;
   if (!prepare(stage, x, renew)) return false;
@@ -65,10 +73,10 @@ double StageSolver::drift(const Stage& stage) const {
 bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool renew) {
   if (renew) linearize(stage, x);
   if (factored_ && drift(stage) <= (renew ? 0 : kWeightDrift)) {
-    if (drift(stage) > 0) contraction_factor_ = 1;
+    if (drift(stage) > 0) remaining_.restart();
     return true;
   }
-  contraction_factor_ = 1;
+  remaining_.restart();
   return factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
 }
 
@@ -81,9 +89,7 @@ void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
 }
 
 bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time) {
-  // The rate may have worsened since it was measured, except for a linear model.
-  if (!model_.traits().linear)
-    contraction_factor_ = std::pow(std::max(contraction_factor_, kLeastContractionFactor), 0.8);
+  remaining_.begin();
   double last = 0;
   for (int k = 1; k <= max_iterations_; ++k) {
     q = stage.q + stage.w_k * x;
@@ -92,8 +98,12 @@ bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRe
     correction(stage, x, q, v);
     x += dx_;
     const double size = norm_(dx_, stage.w_k, stage.w_d);
-    if (!std::isfinite(size) || !shrinks(size, last)) return false;
-    if (contraction_factor_ * size <= tolerance_) {
+    if (!std::isfinite(size)) return false;
+    const double ratio = last > 0 ? size / last : 0;
+    const bool is_round_off = ratio >= 1 && size * norm_.rtol() <= kCorrectionRoundOff;
+    if (ratio >= 1 && !is_round_off) return false;
+    if (last > 0 && !is_round_off) remaining_.note(ratio);
+    if (is_round_off || remaining_.after(size, matrix_.least_rate()) <= tolerance_) {
       q += stage.w_k * dx_;
       v += stage.w_d * dx_;
       return true;
@@ -118,20 +128,6 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
   // Scales the correction for outdated weights, as CVODE does for an outdated gamma.
   dx_ *= 2 / (1 + stage.w_k / matrix_.weights().stiffness);
   ++statistics_.newton_iterations;
-}
-
-// Updates the rate from the norms of two corrections (last = 0: first correction). False if they do not shrink.
-bool StageSolver::shrinks(double size, double last) {
-  if (last == 0) return true;
-  const double rate = size / last;
-  if (rate >= 1) {
-    contraction_factor_ = 0;  // converged to round-off
-    return size * norm_.rtol() <= kCorrectionRoundOff;
-  }
-  contraction_factor_ = rate / (1 - rate);
-  contraction_factor_ = std::max(contraction_factor_, matrix_.least_rate());
-  if (rate > kSlow) stale_ = true;
-  return true;
 }
 
 void StageSolver::filter(VectorRef e_q, VectorRef e_v) {

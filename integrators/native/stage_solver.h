@@ -3,13 +3,15 @@
 //     M x = f(t, q, v),    q = q* + w_k x,    v = v* + w_d x.
 //
 // Each correction dx solves A dx = f - M x, A = M + w_d D + w_k K. K, D and the factor of A are kept across stages and
-// steps. With `newton: lazy`, A is refactored if the weights have changed too much, and K and D are recomputed if
-// convergence is slow. Before a fixed step fails, it is tried with a new tangent in each iteration. Iteration and
-// convergence rate follow Hairer & Wanner (1996), IV.8.
+// steps. With `newton: lazy`, A is refactored if the weights have changed too much, and K and D are recomputed when
+// this costs less than the iterations that it saves (renewal_policy.h) or when Newton's method fails. Before a fixed
+// step fails, it is tried with a new tangent in each iteration. The iteration follows Hairer & Wanner (1996), IV.8.
 #pragma once
 
 #include "integrators/native/native_options.h"
 #include "integrators/newton_matrix.h"
+#include "integrators/remaining_error.h"
+#include "integrators/renewal_policy.h"
 #include "integrators/scaled_norm.h"
 
 namespace orthodyn {
@@ -44,13 +46,13 @@ class StageSolver {
   std::string description() const { return matrix_.description(); }
 
  private:
+  bool try_solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
   // Factors the stage's matrix, with a new tangent if `renew`. False if the matrix cannot be factored.
   bool prepare(const Stage& stage, const ConstVectorRef& x, bool renew);
   double drift(const Stage& stage) const;
   void linearize(const Stage& stage, const ConstVectorRef& x);
   bool iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time);
   void correction(const Stage& stage, const ConstVectorRef& x, const ConstVectorRef& q, const ConstVectorRef& v);
-  bool shrinks(double size, double last);
 
   const Model& model_;
   NewtonKind kind_;
@@ -62,7 +64,8 @@ class StageSolver {
   NewtonMatrix matrix_;
   bool stale_ = true;  // K and D must be recomputed before use
   bool linearized_ = false, factored_ = false;
-  double contraction_factor_ = 1;  // rate / (1 - rate) of the last iteration with this factor
+  RenewalPolicy renewal_;
+  RemainingError remaining_;
   Vector r_, dx_, guess_, work_;
 };
 

@@ -151,7 +151,7 @@ TEST(LinearSolvers, AllTakeTheSameStepsOnALinearModel) {
 
 // The damped stiff part is only round-off, which can decide Newton's last iteration.
 TEST(LinearSolvers, AllTakeNearlyTheSameStepsOnAStiffModel) {
-  for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(stiff_pair(), {1e-5, order}, {0.1, 1});
+  for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(stiff_pair(), {1e-5, order}, {0.2, 1});
 }
 
 // An iterative solver is only as accurate as Newton's method requires.
@@ -175,7 +175,7 @@ TEST(LinearSolvers, AnIterativeOneCostsNeitherAccuracyNorSteps) {
 // Corrections in single precision change the result by less than the tolerance of Newton's method, 0.1 rtol for
 // cvode_bdf: by 0.007 to 0.017 rtol there, whether products and sums are fused or not, and by 1e-5 rtol elsewhere.
 TEST(LinearSolvers, AllTakeTheSameStepsOnANonlinearModel) {
-  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2}, {0, 0.1});
+  expect_the_same_steps_with_all_solvers(pendulum(), {1e-4, 2}, {0, 0.1});
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// Newton's iteration for the implicit stages of ARKODE, with its own convergence test (remaining_error.h).
+//
+// The stages of a step share the matrix and gamma, so their corrections shrink alike. ARKODE's test either requires the
+// last correction itself to be below the tolerance, which takes one or two iterations more than needed, or uses the
+// rate of earlier steps, which is too small after gamma has changed.
+#pragma once
+
+#include <sundials/sundials_nonlinearsolver.h>
+
+#include <functional>
+
+#include "integrators/remaining_error.h"
+#include "integrators/sundials/handles.h"
+
+namespace orthodyn::sundials {
+
+class StageNewton {
+ public:
+  // The rate is used again as long as these are the same, gamma (s) to round-off.
+  struct Conditions {
+    long factorizations = 0;  // number so far
+    double gamma = 0;
+    bool operator==(const Conditions& other) const;
+  };
+
+  // `linear`: the model is linear. `least_rate`: NewtonMatrix::least_rate().
+  StageNewton(N_Vector y, SUNContext context, std::function<Conditions()> conditions, bool linear, double least_rate);
+  StageNewton(const StageNewton&) = delete;
+  StageNewton& operator=(const StageNewton&) = delete;
+
+  // Pass it to ARKODE, which installs its own convergence test; then call replace_test().
+  SUNNonlinearSolver get() const { return solver_.get(); }
+  void replace_test();
+
+ private:
+  int test(int iteration, double size, double tolerance);
+
+  std::function<Conditions()> conditions_;
+  double least_rate_;
+  Owned<SUNNonlinearSolver, SUNNonlinSolFree> solver_;
+  Conditions measured_under_;
+  RemainingError remaining_;
+  double last_ = 0;  // norm of the last correction of this stage
+};
+
+}  // namespace orthodyn::sundials
