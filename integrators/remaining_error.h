@@ -10,7 +10,7 @@ namespace orthodyn {
 
 class RemainingError {
  public:
-  // `linear`: the model is linear, so that the ratio is the same in all equations with the same matrix.
+  // `linear`: the model is linear and gamma that of the matrix, so that the ratio is the same in all equations.
   explicit RemainingError(bool linear) : linear_(linear) {}
 
   // Discards the ratio, because the matrix or gamma has changed.
@@ -18,7 +18,7 @@ class RemainingError {
 
   // Begins another equation. Its ratio may be worse than that of the last one, unless the model is linear.
   void begin() {
-    if (!linear_) factor_ = std::pow(std::max(factor_, kLeastFactor), kPower);
+    if (!linear_ && factor_ < 1) factor_ = std::pow(std::max(factor_, kLeastFactor), kPower);
   }
 
   // Records the ratio of two successive corrections, in [0, 1).

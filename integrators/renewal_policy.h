@@ -16,8 +16,8 @@
 namespace orthodyn {
 
 // Estimated time of a tangent and a factorisation, divided by that of a force and a solve: measured values are 0.7 to
-// 1.4 times this (docs/decisions.md). It depends on the number of unknowns alone, so that a run takes the same steps on
-// each machine and with each linear solver.
+// 1.4 times this (docs/decisions.md). It depends on the number of unknowns alone, so that the rule is the same on each
+// machine and with each linear solver.
 inline double renewal_cost(const Model& model) {
   return std::max(5.0, 0.4 * std::cbrt(static_cast<double>(model.num_dofs_of_all())));
 }
@@ -30,18 +30,21 @@ class RenewalPolicy {
   // True if the next solve should begin with a new matrix.
   bool is_due() const { return forced_left_ > 0 || is_expensive_; }
 
-  // Records a solve (one step or stage) that took this number of iterations, those of failed attempts included.
-  // `renewed`: the tangent was computed in it.
-  void note(long iterations, bool renewed) {
-    count_failure(renewed && !is_due(), renewed);
+  // The next renewal is due to a restart and no failure of the old matrix.
+  void restart() { restarted_ = true; }
+
+  // Records a solve (one step or stage) that took this number of iterations, those of attempts that did not converge
+  // included. `renewed`: the tangent was computed in it.
+  void note(double iterations, bool renewed) {
+    count_failure(renewed && !is_due() && !restarted_, renewed);
+    restarted_ = false;
     if (renewed) {
       total_ = cost_;
       solves_ = 0;
     }
-    const auto taken = static_cast<double>(iterations);
-    total_ += taken;
+    total_ += iterations;
     ++solves_;
-    is_expensive_ = taken * solves_ > total_;
+    is_expensive_ = iterations * solves_ > total_;
   }
 
  private:
@@ -63,7 +66,7 @@ class RenewalPolicy {
   double cost_;
   double total_ = 0;  // cost since the last renewal, in iterations
   int solves_ = 0;    // number of solves in this time
-  bool is_expensive_ = false;
+  bool is_expensive_ = false, restarted_ = true;
   int failures_ = 0;
   int forced_left_ = 0, forced_next_ = kMinForced;  // solves with a new matrix: remaining, and after the next failures
 };

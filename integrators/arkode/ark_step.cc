@@ -3,7 +3,6 @@
 #include <arkode/arkode_arkstep.h>
 
 #include "integrators/fixed_step.h"
-#include "integrators/renewal_policy.h"
 #include "integrators/sundials/stage_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
 #include "lib/ode/hermite.h"
@@ -15,7 +14,14 @@ namespace {
 constexpr int kMaxRetries = 20;
 constexpr double kRetryFactor = 0.25;
 
-constexpr LibraryCalls kArkCalls = ORTHODYN_LIBRARY_CALLS(ARKStep);
+constexpr LibraryCalls kArkCalls = [] {
+  LibraryCalls calls = ORTHODYN_LIBRARY_CALLS(ARKStep);
+  calls.set_factor_interval = [](void* memory, long steps) {
+    return ARKStepSetLSetupFrequency(memory, static_cast<int>(steps));
+  };
+  calls.set_tangent_interval = ARKStepSetJacEvalFrequency;
+  return calls;
+}();
 
 struct FreeArkStep {
   void operator()(void* memory) const { ARKStepFree(&memory); }
@@ -43,7 +49,6 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     check_mass_for_full_jacobian();
     if (method_.explicit_table) add_part(explicit_, method_.split.explicit_part ? *method_.split.explicit_part : model);
     if (method_.implicit_table) add_part(implicit_, model_);
-    if (newton_system_) renewal_.emplace(renewal_cost(model));
   }
 
   bool adaptive() const override { return !method_.step; }
@@ -86,21 +91,10 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     for (int attempt = 0;; ++attempt) {
       require(ARKStepSetStopTime(memory(), t_stop));
       sunrealtype reached = t;  // after a failure, the time of a stage
-      const int flag = evolve(t_stop, reached);
+      const int flag = with_due_matrix([&] { return ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP); });
       if (flag >= 0) take_end(t = reached);
       if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == kMaxRetries || !retry_with_shorter_step()) return flag;
     }
-  }
-
-  int evolve(double t_stop, sunrealtype& reached) {
-    if (!renewal_) return ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
-    const int every = renewal_->is_due() ? 1 : 0;  // 0: the library's default, after 20 and 51 steps
-    require(ARKStepSetLSetupFrequency(memory(), every));
-    require(ARKStepSetJacEvalFrequency(memory(), every));
-    const long solves = statistics_.solve.count, tangents = statistics_.tangent.count;
-    const int flag = ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP);
-    renewal_->note(statistics_.solve.count - solves, statistics_.tangent.count > tangents);
-    return flag;
   }
 
   // ARKODE gives up if the force fails in an explicit stage. This function restarts the step with a quarter of its
@@ -112,6 +106,7 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     positions(y()) = end_.q;
     velocities(y()) = end_.v;
     require(ARKStepReset(memory(), end_.t, y()));
+    restart_renewal();
     require(ARKStepSetInitStep(memory(), h));
     return true;
   }
@@ -203,7 +198,7 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
 
   void use_stage_newton() {
     const auto conditions = [this] { return StageNewton::Conditions{statistics_.factorization.count, gamma()}; };
-    stage_newton_.emplace(y(), context_, conditions, model_.traits().linear, newton_system_->least_rate());
+    stage_newton_.emplace(y(), context_, conditions, options_.rtol, newton_system_->least_rate());
     require(ARKStepSetNonlinearSolver(memory(), stage_newton_->get()));
     stage_newton_->replace_test();
   }
@@ -260,7 +255,6 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   long retries_ = 0;     // steps restarted because a force could not be evaluated, since the last (re-)start
   StepEnd begin_, end_;  // ends of the last step
   std::optional<StageNewton> stage_newton_;
-  std::optional<RenewalPolicy> renewal_;  // only with Newton's method
   std::unique_ptr<void, FreeArkStep> memory_;
 };
 

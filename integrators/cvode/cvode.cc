@@ -4,7 +4,6 @@
 #include <cvode/cvode_ls.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "integrators/renewal_policy.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
 
@@ -12,7 +11,12 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr LibraryCalls kCvodeCalls = ORTHODYN_LIBRARY_CALLS(CVode);
+constexpr LibraryCalls kCvodeCalls = [] {
+  LibraryCalls calls = ORTHODYN_LIBRARY_CALLS(CVode);
+  calls.set_factor_interval = CVodeSetLSetupFrequency;
+  calls.set_tangent_interval = CVodeSetJacEvalFrequency;
+  return calls;
+}();
 
 struct FreeCvode {
   void operator()(void* memory) const { CVodeFree(&memory); }
@@ -26,7 +30,6 @@ class Cvode final : public SundialsIntegrator {
         memory_(CVodeCreate(method.family, context_)) {
     check_mass_for_full_jacobian();
     if (!memory_) throw RunError("CVODE could not be created");
-    if (newton_system_) renewal_.emplace(renewal_cost(model));
     if (method.family == CV_BDF) decisions_.emplace_back("max_order", std::to_string(method.max_order));
   }
 
@@ -49,14 +52,7 @@ class Cvode final : public SundialsIntegrator {
 
   int advance(double t_stop, double& t) override {
     require(CVodeSetStopTime(memory(), t_stop));
-    if (!newton_system_) return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP);
-    const int every = renewal_->is_due() ? 1 : 0;  // 0: the library's default, after 20 and 51 steps
-    require(CVodeSetLSetupFrequency(memory(), every));
-    require(CVodeSetJacEvalFrequency(memory(), every));
-    const long solves = statistics_.solve.count, tangents = statistics_.tangent.count;
-    const int flag = CVode(memory(), t_stop, y(), &t, CV_ONE_STEP);
-    renewal_->note(statistics_.solve.count - solves, statistics_.tangent.count > tangents);
-    return flag;
+    return with_due_matrix([&] { return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP); });
   }
 
   int last_order() const override {
@@ -134,7 +130,6 @@ class Cvode final : public SundialsIntegrator {
   }
 
   CvodeMethod method_;
-  std::optional<RenewalPolicy> renewal_;  // only with Newton's method
   std::optional<SecantNewton> secant_newton_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
   std::unique_ptr<void, FreeCvode> memory_;

@@ -10,7 +10,8 @@
 
 namespace orthodyn {
 
-// When the tangent is recomputed. lazy: when convergence requires it; modified: at each step; full: at each iteration.
+// When the tangent is recomputed. lazy: when this costs less than the iterations of an old one; modified: at each step;
+// full: at each iteration.
 enum class NewtonKind { lazy, modified, full };
 
 template <>
@@ -44,9 +45,9 @@ Spec<T> LinearOptions::spec_for() {
 
 template <class T>
 Spec<T> NewtonOptions::spec_for() {
-  auto spec = LinearOptions::spec_for<T>().key(
-      "newton", &NewtonOptions::newton,
-      "When the tangent is recomputed: when convergence requires it, at each step, or at each iteration.");
+  auto spec = LinearOptions::spec_for<T>().key("newton", &NewtonOptions::newton,
+                                               "When the tangent is recomputed: when this costs less than the "
+                                               "iterations of an old one, at each step, or at each iteration.");
   NewtonLimits::add_to(spec, "rtol, with a fixed step too", "stage");
   return spec;
 }

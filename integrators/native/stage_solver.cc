@@ -1,6 +1,5 @@
 #include "integrators/native/stage_solver.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "integrators/run_checks.h"
@@ -43,9 +42,18 @@ void StageSolver::begin_step() {
 bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
   if (!stale_ && kind_ == NewtonKind::lazy && !model_.traits().linear) stale_ = renewal_.is_due();
   const long iterations = statistics_.newton_iterations, tangents = statistics_.tangent.count;
-  const bool solved = try_solve(stage, x, q, v);
-  renewal_.note(statistics_.newton_iterations - iterations, statistics_.tangent.count > tangents);
-  return solved;
+  const auto note = [&] {
+    renewal_.note(static_cast<double>(statistics_.newton_iterations - iterations),
+                  statistics_.tangent.count > tangents);
+  };
+  try {
+    const bool solved = try_solve(stage, x, q, v);
+    note();
+    return solved;
+  } catch (...) {
+    note();
+    throw;
+  }
 }
 
 bool StageSolver::try_solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {

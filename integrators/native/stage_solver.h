@@ -30,7 +30,10 @@ class StageSolver {
 
   // Call begin_step() before the first stage of a step, and restart() if the state may be far from the last one.
   void begin_step();
-  void restart() { stale_ = true; }
+  void restart() {
+    stale_ = true;
+    renewal_.restart();
+  }
 
   // In: a guess of x (m/s^2). Out: the solution x, and q and v there. False if Newton's method does not converge.
   // Throws RecoverableError if the force cannot be evaluated.

@@ -2,6 +2,7 @@
 
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,22 +10,19 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr double kMostGrowth = 2;    // of a correction; above it the stage fails, as in ARKODE
-constexpr double kSameGamma = 1e-9;  // relative difference of equal gammas by round-off of the times
+constexpr double kMostGrowth = 2.3;       // of a correction; above it the stage fails, as in ARKODE
+constexpr double kSameGamma = 1e-12;      // relative difference between equal gammas by round-off of the times
+constexpr double kStageRoundOff = 1e-11;  // relative to the scales: corrections below it need not shrink
 
 }  // namespace
 
-StageNewton::StageNewton(N_Vector y, SUNContext context, std::function<Conditions()> conditions, bool linear,
+StageNewton::StageNewton(N_Vector y, SUNContext context, std::function<Conditions()> conditions, double rtol,
                          double least_rate)
     : conditions_(std::move(conditions)),
+      rtol_(rtol),
       least_rate_(least_rate),
-      solver_(SUNNonlinSol_Newton(y, context)),
-      remaining_(linear) {
+      solver_(SUNNonlinSol_Newton(y, context)) {
   if (!solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
-}
-
-bool StageNewton::Conditions::operator==(const Conditions& other) const {
-  return factorizations == other.factorizations && std::abs(gamma - other.gamma) <= kSameGamma * gamma;
 }
 
 void StageNewton::replace_test() {
@@ -38,21 +36,29 @@ void StageNewton::replace_test() {
       this);
 }
 
+void StageNewton::begin_stage() {
+  const Conditions last = std::exchange(now_, conditions_());
+  const bool factored = now_.factorizations != last.factorizations;
+  if (factored) factored_gamma_ = now_.gamma;
+  if (factored || std::abs(now_.gamma - last.gamma) > kSameGamma * now_.gamma) remaining_.restart();
+  remaining_.begin();
+}
+
 int StageNewton::test(int iteration, double size, double tolerance) {
   const double last = std::exchange(last_, size);
   if (iteration == 0) {
-    if (const Conditions now = conditions_(); now != measured_under_) {
-      remaining_.restart();
-      measured_under_ = now;
-    }
-    remaining_.begin();
+    begin_stage();
   } else {
     const double ratio = size / last;
+    if (ratio >= 1 && size * rtol_ <= kStageRoundOff) return 0;
     if (!(ratio <= kMostGrowth)) return SUN_NLS_CONV_RECVR;
     if (ratio >= 1) return SUN_NLS_CONTINUE;
     remaining_.note(ratio);
   }
-  return remaining_.after(size, least_rate_) <= tolerance ? 0 : SUN_NLS_CONTINUE;
+  // With the matrix of another gamma, corrections of undamped linear modes shrink by this ratio, as ARKODE scales them.
+  const double drift = now_.gamma / factored_gamma_;
+  const double least = std::max(least_rate_, std::abs(drift - 1) / (drift + 1));
+  return remaining_.after(size, least) <= tolerance ? 0 : SUN_NLS_CONTINUE;
 }
 
 }  // namespace orthodyn::sundials

@@ -20,11 +20,10 @@ class StageNewton {
   struct Conditions {
     long factorizations = 0;  // number so far
     double gamma = 0;
-    bool operator==(const Conditions& other) const;
   };
 
-  // `linear`: the model is linear. `least_rate`: NewtonMatrix::least_rate().
-  StageNewton(N_Vector y, SUNContext context, std::function<Conditions()> conditions, bool linear, double least_rate);
+  // `rtol`: relative tolerance of the error weights. `least_rate`: NewtonMatrix::least_rate().
+  StageNewton(N_Vector y, SUNContext context, std::function<Conditions()> conditions, double rtol, double least_rate);
   StageNewton(const StageNewton&) = delete;
   StageNewton& operator=(const StageNewton&) = delete;
 
@@ -33,13 +32,15 @@ class StageNewton {
   void replace_test();
 
  private:
+  void begin_stage();
   int test(int iteration, double size, double tolerance);
 
   std::function<Conditions()> conditions_;
-  double least_rate_;
+  double rtol_, least_rate_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> solver_;
-  Conditions measured_under_;
-  RemainingError remaining_;
+  Conditions now_;
+  double factored_gamma_ = 0;  // gamma of the last factorisation, s
+  RemainingError remaining_{false};
   double last_ = 0;  // norm of the last correction of this stage
 };
 

@@ -29,6 +29,7 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& lib
   if (!model.traits().smooth && options.max_newton_iterations < 2)
     throw ConfigError("max_newton_iterations: must be at least 2 if the body may touch something, found 1");
   newton_system_.emplace(model_, options_, scales_, statistics_, callback_context_);
+  if (library.set_factor_interval) renewal_.emplace(renewal_cost(model_));
 }
 
 void SundialsIntegrator::check_mass_for_full_jacobian() const {
@@ -64,6 +65,29 @@ void SundialsIntegrator::attach_linear_solver() {
   require(library_.set_linear_solver(memory(), newton_system_->solver(), newton_system_->matrix()));
 }
 
+int SundialsIntegrator::with_due_matrix(const std::function<int()>& attempt) {
+  if (!renewal_) return attempt();
+  const auto rejected = [this] {
+    long count = 0;
+    library_.error_test_failures(memory(), &count);
+    return count;
+  };
+  const int every = renewal_->is_due() ? 1 : 0;
+  require(library_.set_factor_interval(memory(), every));
+  require(library_.set_tangent_interval(memory(), every));
+  const long solves = statistics_.solve.count, tangents = statistics_.tangent.count, before = rejected();
+  const int flag = attempt();
+  // An attempt that the error test rejects says nothing about the matrix: the mean of all attempts counts.
+  const auto attempts = static_cast<double>(1 + rejected() - before);
+  renewal_->note(static_cast<double>(statistics_.solve.count - solves) / attempts,
+                 statistics_.tangent.count > tangents);
+  return flag;
+}
+
+void SundialsIntegrator::restart_renewal() {
+  if (renewal_) renewal_->restart();
+}
+
 void SundialsIntegrator::start(const State& state) {
   positions(y()) = state.q;
   velocities(y()) = state.v;
@@ -71,6 +95,7 @@ void SundialsIntegrator::start(const State& state) {
   if (started_) {
     const Counters now = counters();
     reinitialise(state.t);  // sets the library's counters to zero
+    restart_renewal();
     before_.add(now);
   } else {
     initialise(state.t);

@@ -7,9 +7,11 @@
 // relative to the positions themselves would depend on the frame of reference.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "integrators/renewal_policy.h"
 #include "integrators/sundials/newton_system.h"
 #include "integrators/sundials/nonsmooth_newton.h"
 
@@ -31,9 +33,14 @@ struct LibraryCalls {
   int (*convergence_failures)(void* memory, long* count);
   int (*newton_iterations)(void* memory, long* count);
   int (*workspace)(void* memory, long* reals, long* integers);
+  // Largest number of steps between two factorisations and between two tangents; 0: the library's default, 20 and 51.
+  // Null in IDA.
+  int (*set_factor_interval)(void* memory, long steps) = nullptr;
+  int (*set_tangent_interval)(void* memory, long steps) = nullptr;
 };
 
-// The LibraryCalls of CVODE, IDA or ARKODE, given the prefix of its functions: CVode, IDA or ARKStep.
+// The LibraryCalls of CVODE, IDA or ARKODE, given the prefix of its functions: CVode, IDA or ARKStep; without those
+// that IDA does not have.
 #define ORTHODYN_LIBRARY_CALLS(prefix)                                                                               \
   {                                                                                                                  \
     .set_user_data = prefix##SetUserData, .set_error_weights = prefix##WFtolerances,                                 \
@@ -86,6 +93,11 @@ class SundialsIntegrator : public Integrator {
   void use_nonsmooth_newton();
   // Passes the Newton system to the library after its creation.
   void attach_linear_solver();
+  // Calls `attempt`, which makes the library take one step, with a new matrix if that is due (renewal_policy.h).
+  // Returns the library's flag.
+  int with_due_matrix(const std::function<int()>& attempt);
+  // Call it when the library is restarted: it then renews the matrix.
+  void restart_renewal();
   // Throws RunError with the library's message if the flag is negative.
   void require(int flag) const;
 
@@ -126,7 +138,8 @@ class SundialsIntegrator : public Integrator {
 
   std::string name_;
   const LibraryCalls& library_;
-  Counters before_;  // counted before the last restart
+  std::optional<RenewalPolicy> renewal_;  // only with Newton's method, and not in IDA
+  Counters before_;                       // counted before the last restart
   double t_ = 0;
   bool started_ = false;
 };

@@ -45,11 +45,12 @@ class Klu : public LinearSolver {
     full_ = full(zeros.data());
     symbolic_ = klu_analyze(static_cast<int>(full_.cols()), full_.outerIndexPtr(), full_.innerIndexPtr(), &common_);
     if (!symbolic_)
-      throw RunError("KLU's analysis failed for lack of memory; use cholmod or a coarser mesh", Reason::out_of_memory);
+      throw RunError("KLU's analysis failed for lack of memory; use cholesky or a coarser mesh", Reason::out_of_memory);
   }
 
   FactorStatus factor(const double* values) override {
-    if (!numeric_) require_memory_for_factor(factor_bytes(), "the pair of LU factors", "use cholmod or a coarser mesh");
+    if (!numeric_)
+      require_memory_for_factor(factor_bytes(), "the pair of LU factors", "use cholesky or a coarser mesh");
     full_ = full(values);
     int* p = full_.outerIndexPtr();
     int* i = full_.innerIndexPtr();
@@ -62,7 +63,7 @@ class Klu : public LinearSolver {
       numeric_ = klu_factor(p, i, x, symbolic_, &common_);
     }
     if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE)
-      throw RunError("the LU factors do not fit in memory; use cholmod or a coarser mesh", Reason::out_of_memory);
+      throw RunError("the LU factors do not fit in memory; use cholesky or a coarser mesh", Reason::out_of_memory);
     return numeric_ ? FactorStatus::ok : FactorStatus::singular;
   }
 

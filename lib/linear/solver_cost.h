@@ -1,4 +1,5 @@
-// Measured cost of factors and iterations (docs/decisions.md), to choose between methods before a run.
+// Measured cost of factors and iterations, to choose between methods before a run. The rates of factors are those of
+// CHOLMOD at 57,600 unknowns; `cholesky` takes a third to a half of them in single precision (docs/performance.md).
 #pragma once
 
 namespace orthodyn::solver_cost {

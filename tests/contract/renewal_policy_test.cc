@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace orthodyn::renewal_policy_test {
@@ -10,7 +11,7 @@ namespace {
 constexpr double kCost = 6;
 
 // Iterations with a matrix that is `age` solves old.
-using Iterations = long (*)(int age);
+using Iterations = double (*)(int age);
 
 struct Averages {
   double taken, least;  // mean cost of a solve, in iterations: by the policy, and for the best fixed age
@@ -23,20 +24,20 @@ Averages averages(Iterations iterations) {
   for (int solve = 0, age = 0; solve < kSolves; ++solve) {
     const bool renewed = solve == 0 || policy.is_due();
     age = renewed ? 0 : age + 1;
-    taken += (renewed ? kCost : 0) + static_cast<double>(iterations(age));
+    taken += (renewed ? kCost : 0) + iterations(age);
     policy.note(iterations(age), renewed);
   }
   double least = std::numeric_limits<double>::infinity(), total = kCost;
   for (int age = 0; age < kOldest; ++age) {
-    total += static_cast<double>(iterations(age));
+    total += iterations(age);
     least = std::min(least, total / (age + 1));
   }
   return {taken / kSolves, least};
 }
 
-TEST(RenewalPolicy, TakesTheLeastMeanCostWhereIterationsGrowWithTheAgeOfTheMatrix) {
-  const Iterations cases[] = {[](int age) { return 2L + age; }, [](int age) { return 2L + 3L * age; },
-                              [](int age) { return 2L + age / 10; }, [](int age) { return 3L + 4L * age; }};
+TEST(RenewalPolicy, CostsLittleMoreThanTheBestAgeWhereIterationsGrowWithIt) {
+  const Iterations cases[] = {[](int age) { return 2.0 + age; }, [](int age) { return 2.0 + 3 * age; },
+                              [](int age) { return 2.0 + age / 10; }, [](int age) { return 3.0 + 4 * age; }};
   for (const Iterations iterations : cases) {
     const Averages mean = averages(iterations);
     EXPECT_LE(mean.taken, 1.25 * mean.least);
@@ -72,6 +73,7 @@ TEST(RenewalPolicy, TriesAnOldMatrixAfterThreeFailuresInARow) {
 
 TEST(RenewalPolicy, TakesNewMatricesForLongerEachTimeThatAnOldOneFailsAgain) {
   RenewalPolicy policy(kCost);
+  policy.note(3, true);  // the first matrix
   for (int k = 0; k < 4; ++k) {
     EXPECT_EQ(new_matrices(policy), 0);
     fail(policy);
@@ -84,6 +86,15 @@ TEST(RenewalPolicy, TakesNewMatricesForLongerEachTimeThatAnOldOneFailsAgain) {
   policy.note(3, false);  // an old matrix converged: the count starts again
   for (int k = 0; k < 4; ++k) fail(policy);
   EXPECT_EQ(new_matrices(policy), 4);
+}
+
+TEST(RenewalPolicy, DoesNotTakeRestartsForFailures) {
+  RenewalPolicy policy(kCost);
+  for (int solve = 0; solve < 20; ++solve) {
+    policy.restart();
+    fail(policy);
+    EXPECT_FALSE(policy.is_due()) << solve;
+  }
 }
 
 }  // namespace

@@ -7,36 +7,37 @@
 namespace orthodyn::newton_effort_test {
 namespace {
 
-struct Shipped {
-  const char* name;
-  double end;  // s, a part of the motion
+struct Effort {
+  const char *scene, *method;
+  double end;         // s, a part of the motion
+  double iterations;  // bound per step
 };
 
-class NewtonEffort : public testing::TestWithParam<Shipped> {};
+class NewtonEffort : public testing::TestWithParam<Effort> {};
 
-// Rotating strips: a matrix is outdated after a few steps. SUNDIALS' default schedule spends three iterations before it
-// updates the matrix, and three more with the new one, on both scenes.
-constexpr double kIterationsWithOldFirst = 6;
+// Rotating strips: a matrix is outdated after a few steps. Each bound lies between the iterations with the renewal by
+// cost and those of a matrix that is renewed where it fails (SUNDIALS' schedule, or slow convergence).
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, NewtonEffort,
+    testing::Values(Effort{"cantilever", "cvode_bdf", 0.25, 6}, Effort{"twist", "cvode_bdf", 0.6, 6},
+                    Effort{"cantilever", "generalized_alpha", 0.25, 3}, Effort{"cantilever", "tr_bdf2", 0.25, 6},
+                    Effort{"cantilever", "arkode_dirk", 0.25, 30}),
+    [](const auto& tested) { return fmt::format("{}_{}", tested.param.scene, tested.param.method); });
 
-INSTANTIATE_TEST_SUITE_P(Scenes, NewtonEffort, testing::Values(Shipped{"cantilever", 0.25}, Shipped{"twist", 0.6}),
-                         [](const auto& tested) { return std::string(tested.param.name); });
-
-TEST_P(NewtonEffort, OfBdfIsNotSpentOnOldMatrices) {
-  const Shipped& shipped = GetParam();
-  Config config = Config::from_file(fmt::format(ORTHODYN_SOURCE_DIR "/configs/scenes/{}.yaml", shipped.name));
-  config.set_yaml("integrator", "{type: cvode_bdf, rtol: 1e-4}");
+TEST_P(NewtonEffort, IsNotSpentOnOldMatrices) {
+  const Effort& effort = GetParam();
+  Config config = Config::from_file(fmt::format(ORTHODYN_SOURCE_DIR "/configs/scenes/{}.yaml", effort.scene));
+  config.set_yaml("integrator", fmt::format("{{type: {}, rtol: 1e-4}}", effort.method));
   config.set_yaml("mesh.order", "1");
   const BuiltTestScene s(config);
   const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
-  const Plan plan{shipped.end, {shipped.end}};
+  const Plan plan{effort.end, {effort.end}};
   const Outcome outcome = run(s.model(), *integrator, s.built.initial, plan, {}, {false});
   ASSERT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   const Statistics done = integrator->statistics();
   const auto steps = static_cast<double>(done.steps);
   ASSERT_GT(steps, 50);
-  EXPECT_LT(static_cast<double>(done.newton_iterations), kIterationsWithOldFirst * steps);
-  // One per attempted step.
-  EXPECT_LE(done.tangent.count, done.steps + done.error_test_failures + done.convergence_failures);
+  EXPECT_LT(static_cast<double>(done.newton_iterations), effort.iterations * steps);
 }
 
 }  // namespace

@@ -104,12 +104,12 @@ TEST_P(ScaleOfMotions, DoesNotChangeThem) {
     EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
     return q;
   };
-  // Values a unit in the last place apart may be rounded to single precision differently, where one correction
-  // suffices.
-  constexpr double kSingleTolerance = 1e-6;
+  // Values a unit in the last place apart may be rounded to single precision differently. Where ARKODE's implicit
+  // stages take one correction only, this remains.
+  const bool is_single = GetParam() == "arkode_dirk" || GetParam() == "arkode_imex" || GetParam() == "auto";
+  const double tolerance = is_single ? 1e-6 : kTolerance;
   const Vector expected = figures({1, 1, 1});
-  for (const Units& u : all_units())
-    EXPECT_LT((figures(u) - expected).norm(), kSingleTolerance * expected.norm()) << u.length;
+  for (const Units& u : all_units()) EXPECT_LT((figures(u) - expected).norm(), tolerance * expected.norm()) << u.length;
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, ScaleOfMotions, testing::ValuesIn([] {

@@ -1,7 +1,6 @@
 // Job queues: results are kept, several jobs run at a time, and failures are reported.
 #include "lib/study/jobs/job_queue.h"
 
-#include <chrono>
 #include <fstream>
 
 #include "lib/simulation/output/files.h"
@@ -173,16 +172,15 @@ TEST_F(Jobs, OneWorkerTakesThemInTheirOrderAndAStageEndsBeforeTheNextBegins) {
   EXPECT_EQ(order, (std::vector<std::string>{"begin c", "end c", "begin b", "end b", "begin a", "end a"}));
 }
 
-// Without an interrupt the other job would take a hundred seconds.
+// Without an interrupt the other job would write its result after a hundred seconds.
 TEST_F(Jobs, AnErrorEndsThoseInProgress) {
   const auto all = jobs(2, 100);
-  const auto started = std::chrono::steady_clock::now();
   const std::string script =
       "if [ $(basename $2) = b ]; then touch here; sleep 100; fi; until [ -e ../b/here ]; do sleep 0.01; done; " +
       std::string(kCopy);
   EXPECT_THROW(queue(script, 2).run(all, {.ends = [](std::size_t, const Json&, bool) { throw RunError("no"); }}),
                RunError);
-  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(50));
+  EXPECT_TRUE(finished_result(all[1]).is_null());
 }
 
 TEST_F(Jobs, AnInterruptEndsThoseInProgressAndKeepsTheRest) {
