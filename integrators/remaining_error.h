@@ -10,13 +10,15 @@ namespace orthodyn {
 
 class RemainingError {
  public:
-  // `linear`: the model is linear and gamma that of the matrix, so that the ratio is the same in all equations.
+  // `linear`: true if all equations have the same ratio. This holds for a linear model whose matrix was factored with
+  // the current step size.
   explicit RemainingError(bool linear) : linear_(linear) {}
 
   // Discards the ratio, because the matrix or gamma has changed.
   void restart() { factor_ = 1; }
 
-  // Begins another equation. Its ratio may be worse than that of the last one, unless the model is linear.
+  // Call it before each equation. Unless the model is linear, the new equation may converge more slowly than the last
+  // one, so the estimate is raised.
   void begin() {
     if (!linear_ && factor_ < 1) factor_ = std::pow(std::max(factor_, kLeastFactor), kPower);
   }

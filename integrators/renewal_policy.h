@@ -15,9 +15,9 @@
 
 namespace orthodyn {
 
-// Estimated time of a tangent and a factorisation, divided by that of a force and a solve: measured values are 0.7 to
-// 1.4 times this (docs/decisions.md). It depends on the number of unknowns alone, so that the rule is the same on each
-// machine and with each linear solver.
+// Estimated cost of a new matrix in iterations: the time of a tangent and a factorisation, divided by the time of a
+// force and a solve. Measured costs are 0.7 to 1.4 times the estimate (docs/decisions.md). The estimate depends only on
+// the number of unknowns, so the rule is the same on each machine and with each linear solver.
 inline double renewal_cost(const Model& model) {
   return std::max(5.0, 0.4 * std::cbrt(static_cast<double>(model.num_dofs_of_all())));
 }
@@ -33,8 +33,8 @@ class RenewalPolicy {
   // The next renewal is due to a restart and no failure of the old matrix.
   void restart() { restarted_ = true; }
 
-  // Records a solve (one step or stage) that took this number of iterations, those of attempts that did not converge
-  // included. `renewed`: the tangent was computed in it.
+  // Call it after each solve of a step or stage. `iterations`: number of iterations of the solve; attempts that did not
+  // converge count, too. `renewed`: whether the tangent was computed in the solve.
   void note(double iterations, bool renewed) {
     count_failure(renewed && !is_due() && !restarted_, renewed);
     restarted_ = false;

@@ -1,5 +1,5 @@
-// Measured cost of factors and iterations, to choose between methods before a run. The rates of factors are those of
-// CHOLMOD at 57,600 unknowns; `cholesky` takes a third to a half of them in single precision (docs/performance.md).
+// Measured costs of factors and iterations, by which a method is chosen before a run. Factors were measured with
+// CHOLMOD at 57,600 unknowns. In single precision `cholesky` is two to three times as fast (docs/performance.md).
 #pragma once
 
 namespace orthodyn::solver_cost {
