@@ -20,7 +20,7 @@ constexpr double kHeld = 1e-9;       // smaller singular values, relative to the
 constexpr double kRoundOff = 1e-14;  // of r^T K r, relative to its value with the diagonal of K
 
 // For each node the index of its connected component; -1 for nodes without an element.
-std::vector<int> parts_of(const TetMesh& mesh) {
+std::vector<int> parts_of(const Mesh& mesh) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -28,7 +28,7 @@ std::vector<int> parts_of(const TetMesh& mesh) {
     while (up(i) != i) i = up(i) = up(up(i));
     return i;
   };
-  const Cells cells = tet_cells(mesh);
+  const Cells& cells = mesh.cells;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (const int node : cells[c]) parent[static_cast<std::size_t>(root(node))] = root(cells[c][0]);
   std::vector<int> number(mesh.nodes.size(), -1), part(mesh.nodes.size(), -1);

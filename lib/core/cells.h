@@ -1,11 +1,12 @@
-// The connectivity of a mesh whose cells all have the same number of nodes.
+// The connectivity of a mesh: the shape and the nodes of each cell.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
+
+#include "lib/core/cell_shape.h"
 
 namespace orthodyn {
 
@@ -13,30 +14,61 @@ class Cells {
  public:
   Cells() = default;
 
-  // `nodes`: node indices, cell by cell. Precondition: their number is a multiple of nodes_per_cell.
-  Cells(int nodes_per_cell, std::vector<int> nodes)
-      : nodes_per_cell_(static_cast<std::size_t>(nodes_per_cell)), nodes_(std::move(nodes)) {}
-
-  template <std::size_t kNodes>
-  explicit Cells(const std::vector<std::array<int, kNodes>>& cells) : nodes_per_cell_(kNodes) {
-    nodes_.reserve(kNodes * cells.size());
-    for (const auto& cell : cells) nodes_.insert(nodes_.end(), cell.begin(), cell.end());
+  // Cells of one shape. `nodes`: node indices, cell by cell. Precondition: their number is a multiple of that of the
+  // shape.
+  Cells(CellShape shape, std::span<const int> nodes) {
+    const auto per_cell = static_cast<std::size_t>(topology(shape).nodes);
+    reserve(nodes.size() / per_cell, per_cell);
+    for (; !nodes.empty(); nodes = nodes.subspan(per_cell)) add(shape, nodes.first(per_cell));
   }
 
-  std::size_t size() const { return nodes_.size() / nodes_per_cell_; }
-  int nodes_per_cell() const { return static_cast<int>(nodes_per_cell_); }
+  // Linear tetrahedra.
+  explicit Cells(const std::vector<std::array<int, 4>>& tets) {
+    reserve(tets.size(), 4);
+    for (const auto& tet : tets) add(CellShape::tet4, tet);
+  }
 
-  // The nodes of one cell; valid as long as this object.
+  void reserve(std::size_t cells, std::size_t nodes_per_cell) {
+    nodes_.reserve(cells * nodes_per_cell);
+    start_.reserve(cells + 1);
+    shapes_.reserve(cells);
+  }
+
+  void add(CellShape shape, std::span<const int> nodes) {
+    nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    start_.push_back(nodes_.size());
+    shapes_.push_back(shape);
+  }
+
+  std::size_t size() const { return shapes_.size(); }
+  bool empty() const { return shapes_.empty(); }
+
+  CellShape shape(std::size_t cell) const { return shapes_[cell]; }
+  const std::vector<CellShape>& shapes() const { return shapes_; }
+
+  // The nodes of one cell, in the order of cell_shape.h; valid until a cell is added.
   std::span<const int> operator[](std::size_t cell) const {
-    return {nodes_.data() + cell * nodes_per_cell_, nodes_per_cell_};
+    return {nodes_.data() + start_[cell], start_[cell + 1] - start_[cell]};
+  }
+  std::span<int> nodes_of(std::size_t cell) { return {nodes_.data() + start_[cell], start_[cell + 1] - start_[cell]}; }
+  std::span<const int> corners(std::size_t cell) const {
+    return {nodes_.data() + start_[cell], static_cast<std::size_t>(topology(shapes_[cell]).corners)};
   }
 
   // The nodes of all cells, cell by cell.
   const std::vector<int>& nodes() const { return nodes_; }
+  std::vector<int>& nodes() { return nodes_; }
+
+  std::size_t bytes() const {
+    return nodes_.size() * sizeof(int) + start_.size() * sizeof(std::size_t) + shapes_.size() * sizeof(CellShape);
+  }
+
+  bool operator==(const Cells&) const = default;
 
  private:
-  std::size_t nodes_per_cell_ = 1;
   std::vector<int> nodes_;
+  std::vector<std::size_t> start_{0};  // of each cell in nodes_, and the end
+  std::vector<CellShape> shapes_;
 };
 
 }  // namespace orthodyn

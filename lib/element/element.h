@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 
+#include "lib/core/cell_shape.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -43,10 +44,9 @@ struct ElementPoint {
 
 template <class E>
 concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes<E::kNodes> X, Mat3 Q, double density) {
-  { E::kName } -> std::convertible_to<const char*>;
+  { E::kShape } -> std::convertible_to<CellShape>;  // defines the node order
   { E::kNodes } -> std::convertible_to<int>;
   { E::kPoints } -> std::convertible_to<int>;
-  { E::kVtkCellType } -> std::convertible_to<int>;  // defines the node order
   // Each node's share of the lumped mass: positive, with sum 1.
   { E::kLumpedShares } -> std::convertible_to<std::array<double, E::kNodes>>;
   // The largest ratio of lumped to consistent kinetic energy.

@@ -4,6 +4,7 @@
 // counterclockwise as seen from outside the body.
 #pragma once
 
+#include <array>
 #include <concepts>
 
 #include "lib/element/quadrature.h"
@@ -11,14 +12,19 @@
 namespace orthodyn {
 
 template <class F>
-concept Face = requires(Vec3 L) {
+concept Face = requires(Vec3 place) {
   { F::kNodes } -> std::convertible_to<int>;
+  // Quadrature points of the face: its integral of g is sum weight * |normal_at<F>(X, place)| * g.
+  { F::kPoints } -> std::convertible_to<int>;
+  { F::points() } -> std::same_as<const std::array<QuadraturePoint, F::kPoints>&>;
   // Number of points needed to integrate (tangent x tangent) times a function of the rest position: one if the tangents
-  // are constant, else those of triangle_points_of_degree_5().
+  // are constant, else kPoints.
   { F::kTangentPoints } -> std::convertible_to<int>;
-  // Shape functions at barycentric coordinates L, and their derivatives with respect to L_1 and L_2.
-  { F::shape(L) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 1>>;
-  { F::slopes(L) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 2>>;
+  // Shape functions at natural coordinates, and their derivatives in two directions whose cross product points outward:
+  // barycentric coordinates (L_0, L_1, L_2) of a triangle, derivatives with respect to L_1 and L_2; (x, y, 0) of a
+  // quadrilateral with x and y in [-1, 1], derivatives with respect to x and y.
+  { F::shape(place) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 1>>;
+  { F::slopes(place) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 2>>;
   // Each node's share of the area, for nodal forces such as contact: positive, with sum 1.
   { F::kNodeShares } -> std::convertible_to<std::array<double, F::kNodes>>;
 };
@@ -27,23 +33,36 @@ concept Face = requires(Vec3 L) {
 template <Face F>
 using FaceNodes = Eigen::Matrix<double, 3, F::kNodes>;
 
-// The cross product of the tangents at a point, m^2: twice the area vector of a plane face with straight edges.
+// The points of triangles, in barycentric coordinates, with weights for normals that are twice the area vector.
+inline const std::array<QuadraturePoint, 7>& triangular_face_points() {
+  static const std::array<QuadraturePoint, 7> all = [] {
+    std::array<QuadraturePoint, 7> points;
+    std::size_t p = 0;
+    for (const auto& [L, share] : triangle_points_of_degree_5()) points[p++] = {L, 0.5 * share};
+    return points;
+  }();
+  return all;
+}
+
+// The cross product of the tangents at a point, m^2: twice the area vector of a plane triangle with straight edges, a
+// quarter of that of a parallelogram.
 template <Face F>
-Vec3 normal_at(const FaceNodes<F>& x, const Vec3& L) {
-  const Eigen::Matrix<double, 3, 2> tangents = x * F::slopes(L);
+Vec3 normal_at(const FaceNodes<F>& x, const Vec3& place) {
+  const Eigen::Matrix<double, 3, 2> tangents = x * F::slopes(place);
   return tangents.col(0).cross(tangents.col(1));
 }
 
-// integral of N_a g dA, one column per node a, for a scalar or vector field g of position. Exact on a plane face with
-// straight edges if N_a g is a polynomial of degree <= 5.
+// integral of N_a g dA, one column per node a, for a scalar or vector field g of position. Exact on a plane triangle
+// with straight edges if N_a g is a polynomial of degree <= 5, and on a parallelogram if its degree in each natural
+// coordinate is.
 template <Face F, class Field>
 auto node_integrals(const FaceNodes<F>& X, const Field& g) {
   using Value = std::decay_t<decltype(g(Vec3()))>;
   Eigen::Matrix<double, Value::RowsAtCompileTime, F::kNodes> sums;
   sums.setZero();
-  for (const auto& [L, weight] : triangle_points_of_degree_5()) {
-    const auto N = F::shape(L);
-    const Value value = 0.5 * weight * normal_at<F>(X, L).norm() * g(Vec3(X * N));
+  for (const auto& [place, weight] : F::points()) {
+    const auto N = F::shape(place);
+    const Value value = weight * normal_at<F>(X, place).norm() * g(Vec3(X * N));
     sums += value * N.transpose();
   }
   return sums;
@@ -53,7 +72,7 @@ auto node_integrals(const FaceNodes<F>& X, const Field& g) {
 template <Face F>
 double area(const FaceNodes<F>& X) {
   double sum = 0;
-  for (const auto& [L, weight] : triangle_points_of_degree_5()) sum += 0.5 * weight * normal_at<F>(X, L).norm();
+  for (const auto& [place, weight] : F::points()) sum += weight * normal_at<F>(X, place).norm();
   return sum;
 }
 

@@ -7,12 +7,12 @@ namespace orthodyn {
 
 namespace {
 
-struct LinePoint {
+struct UnitLinePoint {
   double x, weight;  // on [0, 1]
 };
 
 // Abramowitz & Stegun 25.4.30.
-std::array<LinePoint, 5> gauss_legendre_5() {
+std::array<UnitLinePoint, 5> gauss_legendre_5() {
   const double near = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3, far = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
   const double near_weight = (322 + 13 * std::sqrt(70.0)) / 1800, far_weight = (322 - 13 * std::sqrt(70.0)) / 1800;
   return {{{(1 - far) / 2, far_weight},
@@ -20,6 +20,15 @@ std::array<LinePoint, 5> gauss_legendre_5() {
            {0.5, 64.0 / 225},
            {(1 + near) / 2, near_weight},
            {(1 + far) / 2, far_weight}}};
+}
+
+// The three points whose barycentric coordinates are a, a and 1 - 2a.
+void add_triangle_orbit(double a, double weight, std::vector<TrianglePoint>& points) {
+  for (int i = 0; i < 3; ++i) {
+    Vec3 L = Vec3::Constant(a);
+    L[i] = 1 - 2 * a;
+    points.push_back({L, weight});
+  }
 }
 
 }  // namespace
@@ -51,6 +60,64 @@ const std::array<TrianglePoint, 7>& triangle_points_of_degree_5() {
                                                  {{b, 1 - 2 * b, b}, near_side},
                                                  {{b, b, 1 - 2 * b}, near_side}}};
   return all;
+}
+
+const std::vector<TrianglePoint>& triangle_points_of_degree_2() {
+  static const std::vector<TrianglePoint> all = [] {
+    std::vector<TrianglePoint> points;
+    add_triangle_orbit(1.0 / 6, 1.0 / 3, points);
+    return points;
+  }();
+  return all;
+}
+
+const std::vector<TrianglePoint>& triangle_points_of_degree_4() {
+  static const std::vector<TrianglePoint> all = [] {
+    const double middle = 8 - std::sqrt(10.0), spread = std::sqrt(38 - 44 * std::sqrt(0.4));
+    const double weight_spread = std::sqrt(213125 - 53320 * std::sqrt(10.0));
+    std::vector<TrianglePoint> points;
+    add_triangle_orbit((middle - spread) / 18, (620 - weight_spread) / 3720, points);
+    add_triangle_orbit((middle + spread) / 18, (620 + weight_spread) / 3720, points);
+    return points;
+  }();
+  return all;
+}
+
+const std::vector<LinePoint>& line_points_of_degree_3() {
+  static const std::vector<LinePoint> all{{-1 / std::sqrt(3.0), 1}, {1 / std::sqrt(3.0), 1}};
+  return all;
+}
+
+const std::vector<LinePoint>& line_points_of_degree_5() {
+  static const std::vector<LinePoint> all{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
+  return all;
+}
+
+const std::array<QuadraturePoint, 9>& square_points_of_degree_5() {
+  static const std::array<QuadraturePoint, 9> all = [] {
+    std::array<QuadraturePoint, 9> points;
+    std::size_t p = 0;
+    for (const auto& [y, w_y] : line_points_of_degree_5())
+      for (const auto& [x, w_x] : line_points_of_degree_5()) points[p++] = {{x, y, 0}, w_x * w_y};
+    return points;
+  }();
+  return all;
+}
+
+std::vector<QuadraturePoint> cube_points(const std::vector<LinePoint>& line) {
+  std::vector<QuadraturePoint> points;
+  for (const auto& [z, w_z] : line)
+    for (const auto& [y, w_y] : line)
+      for (const auto& [x, w_x] : line) points.push_back({{x, y, z}, w_x * w_y * w_z});
+  return points;
+}
+
+std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& triangle,
+                                          const std::vector<LinePoint>& line) {
+  std::vector<QuadraturePoint> points;
+  for (const auto& [t, w_t] : line)
+    for (const auto& [L, share] : triangle) points.push_back({{L[1], L[2], t}, 0.5 * share * w_t});
+  return points;
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,5 @@
-// Quadrature points and weights for tetrahedra and triangles, in barycentric coordinates.
+// Quadrature points and weights: tetrahedra and triangles in barycentric coordinates, lines, squares, cubes and wedges
+// in natural coordinates.
 #pragma once
 
 #include <array>
@@ -23,7 +24,36 @@ struct TrianglePoint {
   double weight;  // share of the area; sum 1
 };
 
+// Exact for polynomials of degree 2: three points inside the triangle, one near each corner (Hammer & Stroud 1956).
+const std::vector<TrianglePoint>& triangle_points_of_degree_2();
+
+// Exact for polynomials of degree 4, with six points (Strang & Fix 1973, Table 4.1; closed form: Lyness & Jespersen
+// 1975).
+const std::vector<TrianglePoint>& triangle_points_of_degree_4();
+
 // Exact for polynomials of degree 5 (Radon 1948, Zur mechanischen Kubatur).
 const std::array<TrianglePoint, 7>& triangle_points_of_degree_5();
+
+struct LinePoint {
+  double x, weight;  // on [-1, 1]; sum of weights 2
+};
+
+// Gauss-Legendre rules of two and three points, exact for polynomials of degree 3 and 5 (Abramowitz & Stegun 25.4.30).
+const std::vector<LinePoint>& line_points_of_degree_3();
+const std::vector<LinePoint>& line_points_of_degree_5();
+
+struct QuadraturePoint {
+  Vec3 place;  // natural coordinates of a cell or face
+  double weight;
+};
+
+// (x, y, 0) in [-1, 1]^2: exact for polynomials of degree 5 in each coordinate; sum of weights 4.
+const std::array<QuadraturePoint, 9>& square_points_of_degree_5();
+
+// Products of rules, the first coordinate varying fastest: on [-1, 1]^3, sum of weights 8, and on the wedge (r, s, t)
+// with the barycentric coordinates (1 - r - s, r, s) and t in [-1, 1], sum of weights 1.
+std::vector<QuadraturePoint> cube_points(const std::vector<LinePoint>& line);
+std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& triangle,
+                                          const std::vector<LinePoint>& line);
 
 }  // namespace orthodyn

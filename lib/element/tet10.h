@@ -18,9 +18,8 @@
 namespace orthodyn {
 
 struct Tet10 {
-  static constexpr const char* kName = "quadratic tetrahedron";
+  static constexpr CellShape kShape = CellShape::tet10;
   static constexpr int kNodes = 10, kPoints = 4, kDegree = 2;
-  static constexpr int kVtkCellType = 24;  // VTK_QUADRATIC_TETRA
   static constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
   static constexpr double kCorner = 1.0 / 36, kMiddle = 4.0 / 27;
   static constexpr std::array<double, kNodes> kLumpedShares{kCorner, kCorner, kCorner, kCorner, kMiddle,

@@ -6,9 +6,8 @@
 namespace orthodyn {
 
 struct Tet4 {
-  static constexpr const char* kName = "linear tetrahedron";
+  static constexpr CellShape kShape = CellShape::tet4;
   static constexpr int kNodes = 4, kPoints = 1, kDegree = 1;
-  static constexpr int kVtkCellType = 10;  // VTK_TETRA
   static constexpr std::array<double, kNodes> kLumpedShares{0.25, 0.25, 0.25, 0.25};
   static constexpr double kLumpedToConsistent = 5;  // m/4 over the smallest eigenvalue of the consistent mass, m/20
 

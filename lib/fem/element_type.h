@@ -2,10 +2,9 @@
 // lib/element and is defined in a separate file.
 #pragma once
 
-#include <array>
 #include <memory>
-#include <span>
 
+#include "lib/core/cell_shape.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -17,22 +16,20 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  static constexpr int kMostNodes = 10;  // of nodes and of points; small matrices need no allocation
+  static constexpr int kMostNodes = 27;  // of nodes and of points; small matrices need no allocation
   // Node positions at rest (m), one column each.
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 
   virtual ~ElementType() = default;
 
-  virtual const char* name() const = 0;
-  virtual int num_nodes() const = 0;
-  virtual int vtk_cell_type() const = 0;
+  virtual CellShape shape() const = 0;
+  const char* name() const { return topology(shape()).name; }
+  int num_nodes() const { return topology(shape()).nodes; }
 
   // Positions of the integration points at rest (m), one column each.
   virtual Nodes points(const Nodes& X) const = 0;
 
-  // The first nodes of a cell are its corners; the others are edge midpoints, in the order of edges_with_middles().
-  virtual int num_corners() const = 0;
-  virtual std::span<const std::array<int, 2>> edges_with_middles() const = 0;
+  virtual int num_points() const = 0;
 
   // E::kDegree and E::points_to_nodes() of the element E.
   virtual int degree() const = 0;
@@ -53,5 +50,12 @@ class ElementType {
 
 const ElementType& linear_tetrahedron();
 const ElementType& quadratic_tetrahedron();
+const ElementType& quadratic_hexahedron();     // 20 nodes, reduced integration
+const ElementType& triquadratic_hexahedron();  // 27 nodes
+const ElementType& quadratic_wedge();          // 15 nodes
+const ElementType& biquadratic_wedge();        // 18 nodes
+
+// The element of a cell's shape. Throws ConfigError for shapes without an element: linear wedges and hexahedra.
+const ElementType& element_type(CellShape shape);
 
 }  // namespace orthodyn

@@ -14,20 +14,13 @@ class ElementTypeOf final : public ElementType {
   static_assert(E::kNodes <= kMostNodes && E::kPoints <= kMostNodes, "raise ElementType::kMostNodes");
 
  public:
-  const char* name() const override { return E::kName; }
-  int num_nodes() const override { return E::kNodes; }
-  int vtk_cell_type() const override { return E::kVtkCellType; }
+  CellShape shape() const override { return E::kShape; }
+  int num_points() const override { return E::kPoints; }
 
   Nodes points(const Nodes& X) const override {
     Nodes out(3, E::kPoints);
     for (int p = 0; p < E::kPoints; ++p) out.col(p) = E::place_of(p, X);
     return out;
-  }
-
-  int num_corners() const override { return E::kNodes - static_cast<int>(edges_with_middles().size()); }
-  std::span<const std::array<int, 2>> edges_with_middles() const override {
-    if constexpr (requires { E::kEdges; }) return E::kEdges;
-    else return {};
   }
 
   int degree() const override { return E::kDegree; }

@@ -1,41 +1,36 @@
-// Loops over the faces of a surface, with the face type (linear or quadratic) of the mesh.
+// Loops over the faces of a surface, with the type of each face.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "lib/element/quad8.h"
+#include "lib/element/quad9.h"
 #include "lib/element/tri3.h"
 #include "lib/element/tri6.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
-template <Face F>
-FaceNodes<F> face_positions(const TetMesh& mesh, std::span<const int> nodes) {
-  FaceNodes<F> X;
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(nodes[a])];
-  return X;
-}
-
-// Calls visit(nodes, X) for each face, with node indices and positions at rest. Precondition: the mesh has faces of
-// type F.
-template <Face F, class Visit>
-void for_each_face_of(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Visit& visit) {
-  const Cells faces = face_cells(mesh, triangles);
-  for (std::size_t k = 0; k < faces.size(); ++k) visit(faces[k], face_positions<F>(mesh, faces[k]));
-}
-
-// Likewise, calls visit.operator()<F>(nodes, X) with the face type F of the mesh.
+// Calls visit.operator()<F>(nodes, X) for each face, with its type F, node indices and positions at rest. Precondition:
+// the cells of the mesh have elements.
 template <class Visit>
-void for_each_face(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Visit& visit) {
-  const auto all = [&]<Face F>() {
-    for_each_face_of<F>(mesh, triangles, [&](std::span<const int> nodes, const FaceNodes<F>& X) {
-      visit.template operator()<F>(nodes, X);
-    });
-  };
-  if (mesh.order() == 1) all.template operator()<Tri3>();
-  else all.template operator()<Tri6>();
+void for_each_face(const Mesh& mesh, const std::vector<FaceCorners>& corners, const Visit& visit) {
+  const Cells faces = face_cells(mesh, corners);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const auto of_type = [&]<Face F>() {
+      FaceNodes<F> X;
+      for (Eigen::Index a = 0; a < X.cols(); ++a) X.col(a) = mesh.node(faces[k][static_cast<std::size_t>(a)]);
+      visit.template operator()<F>(faces[k], X);
+    };
+    switch (faces.shape(k)) {
+      case CellShape::tri3: of_type.template operator()<Tri3>(); break;
+      case CellShape::tri6: of_type.template operator()<Tri6>(); break;
+      case CellShape::quad8: of_type.template operator()<Quad8>(); break;
+      case CellShape::quad9: of_type.template operator()<Quad9>(); break;
+      default: break;
+    }
+  }
 }
 
 }  // namespace orthodyn

@@ -262,10 +262,7 @@ StepLimits FemModel::step_limits(double start, double end) const {
   return limits;
 }
 
-Geometry FemModel::geometry() const {
-  ElementMesh mesh(parts_.mesh);
-  return {mesh.nodes, std::move(mesh.cells), mesh.type.vtk_cell_type()};
-}
+Geometry FemModel::geometry() const { return {parts_.mesh.nodes, parts_.mesh.cells}; }
 
 std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   const auto& mesh = parts_.mesh;
@@ -276,8 +273,7 @@ std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   // Displacements, velocities, positions and forces of all nodes during a force evaluation.
   const std::size_t expansion = 4 * nodes * sizeof(Vec3);
   std::vector<std::pair<std::string, std::size_t>> all = {
-      {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int)) +
-                   mesh.midsides.size() * sizeof(Midsides)},
+      {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.cells.bytes() + mesh.cells.size() * sizeof(int)},
       {"elements", elements},
       {"pattern", (pattern.row.size() + pattern.column_start.size()) * sizeof(int)},
       {"mass", parts_.mass->bytes()},

@@ -18,7 +18,7 @@
 #include "lib/fem/subdomain.h"
 #include "lib/fem/term.h"
 #include "lib/fem/terms/elastic_term.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 #include "lib/ode/model.h"
 
 namespace orthodyn {
@@ -35,7 +35,7 @@ class FemModel : public Model {
   // With several ranks, `mesh` is the whole mesh; everything else belongs to this rank's subdomain and uses its node
   // numbers.
   struct Parts {
-    TetMesh mesh;
+    Mesh mesh;
     std::unique_ptr<Subdomain> subdomain = {};  // null with one rank
     std::vector<int> unknowns = {};             // indices of this rank's unknowns in the model on one rank
     std::unique_ptr<DofMap> dofs;

@@ -1,5 +1,6 @@
 #include "lib/fem/mass.h"
 
+#include <algorithm>
 #include <span>
 
 #include "lib/core/errors.h"
@@ -8,12 +9,11 @@ namespace orthodyn {
 
 Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
            const BlockPattern& pattern, const Subdomain* subdomain)
-    : kind_(kind),
-      pattern_(pattern.pattern()),
-      nodal_(Vector::Zero(dofs.num_nodes())),
-      frequency_excess_(kind == MassKind::lumped ? 1 : mesh.type.lumped_to_consistent()) {
+    : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())), frequency_excess_(1) {
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const Vector masses = mesh.type.lumped_mass(mesh.positions(e), density[e]);
+    const ElementType& type = mesh.type(e);
+    const Vector masses = type.lumped_mass(mesh.positions(e), density[e]);
+    if (kind == MassKind::consistent) frequency_excess_ = std::max(frequency_excess_, type.lumped_to_consistent());
     Eigen::Index a = 0;
     for (const int node : mesh.cells[e]) nodal_[node] += masses[a++];
   }
@@ -33,7 +33,7 @@ void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& de
   row_sums_ = Vector::Zero(nodal_.size());
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const auto nodes = mesh.cells[e];
-    const Eigen::MatrixXd M = mesh.type.consistent_mass(mesh.positions(e), density[e]);
+    const Eigen::MatrixXd M = mesh.type(e).consistent_mass(mesh.positions(e), density[e]);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       row_sums_[nodes[i]] += M.row(static_cast<Eigen::Index>(i)).sum();
       for (std::size_t j = 0; j < nodes.size(); ++j) {
@@ -114,7 +114,7 @@ SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const std::v
       if (is_held(dofs, i)) entries.emplace_back(i, i, mass.nodal()[i]);
   } else {
     for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-      add_element(mesh.cells[e], mesh.type.consistent_mass(mesh.positions(e), density[e]), dofs, entries);
+      add_element(mesh.cells[e], mesh.type(e).consistent_mass(mesh.positions(e), density[e]), dofs, entries);
   }
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }

@@ -18,12 +18,13 @@ class EnergyOfStress {
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
       : mesh_(mesh),
         term_(term),
+        type_(mesh.type(static_cast<std::size_t>(term.cell(0)))),
         compliance_(Mat6(term.stiffness().inverse())),
-        straight_(mesh.type.num_corners() == kCornersOfTet ? shares_of(unit_tetrahedron()) : ElementMatrix()) {
+        straight_(topology(type_.shape()).corners == kCornersOfTet ? shares_of(unit_tetrahedron()) : ElementMatrix()) {
     if (term.definition().axes.uniform()) in_space_ = compliance_in_space(0);
   }
 
-  double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
+  double volume(int k) const { return type_.lumped_mass(positions(k), 1).sum(); }
 
   // Mean of a : C^-1 : b / 2 over the element, J/m^3.
   double density(int k, const ElementRows& a, const ElementRows& b) const {
@@ -41,25 +42,27 @@ class EnergyOfStress {
     return straight_.size() > 0 && is_straight(X) ? straight_ : shares_of(X);
   }
   ElementMatrix shares_of(const ElementType::Nodes& X) const {
-    return mesh_.type.consistent_mass(X, 1) / mesh_.type.lumped_mass(X, 1).sum();
+    return type_.consistent_mass(X, 1) / type_.lumped_mass(X, 1).sum();
   }
 
   // Whether all edges are straight to round-off.
   bool is_straight(const ElementType::Nodes& X) const {
     constexpr double kRoundOff = 1e-14;  // relative to the coordinates
-    Eigen::Index middle = mesh_.type.num_corners();
-    for (const auto& [i, j] : mesh_.type.edges_with_middles()) {
-      const Vec3 bulge = X.col(middle++) - (X.col(i) + X.col(j)) / 2;
-      if (bulge.norm() > kRoundOff * (X.col(i).norm() + X.col(j).norm())) return false;
+    Eigen::Index middle = kCornersOfTet;
+    for (const std::vector<int>& edge : topology(type_.shape()).middles) {
+      const auto begin = X.col(edge[0]), end = X.col(edge[1]);
+      const Vec3 bulge = X.col(middle++) - (begin + end) / 2;
+      if (bulge.norm() > kRoundOff * (begin.norm() + end.norm())) return false;
     }
     return true;
   }
 
   ElementType::Nodes unit_tetrahedron() const {
-    ElementType::Nodes X = ElementType::Nodes::Zero(3, mesh_.type.num_nodes());
+    ElementType::Nodes X = ElementType::Nodes::Zero(3, type_.num_nodes());
     X.block<3, 3>(0, 1).setIdentity();
     Eigen::Index middle = kCornersOfTet;
-    for (const auto& [i, j] : mesh_.type.edges_with_middles()) X.col(middle++) = (X.col(i) + X.col(j)) / 2;
+    for (const std::vector<int>& edge : topology(type_.shape()).middles)
+      X.col(middle++) = (X.col(edge[0]) + X.col(edge[1])) / 2;
     return X;
   }
 
@@ -73,6 +76,7 @@ class EnergyOfStress {
 
   const ElementMesh& mesh_;
   const ElasticTerm& term_;
+  const ElementType& type_;
   Mat6 compliance_;
   std::optional<Mat6> in_space_;  // compliance_in_space(), if equal for all elements
   ElementMatrix straight_;        // shares() of a tetrahedron with straight edges; empty for other elements
@@ -86,7 +90,7 @@ class NodalStresses {
       : cells_(recovery.cells()),
         computed_(computed),
         recovered_(recovery.at_nodes(mesh, computed)),
-        extrapolation_(mesh.type.points_to_nodes()) {}
+        extrapolation_(element_type(recovery.cells().shape(0)).points_to_nodes()) {}
 
   Eigen::Index nodes() const { return extrapolation_.rows(); }
   ElementRows computed(Eigen::Index k) const {
@@ -137,7 +141,7 @@ double misfit_product(const ElementMesh& mesh, const ElasticTerm& term, const st
                       const SixColumns& a, const SixColumns& b) {
   if (term.size() == 0) return 0;
   const EnergyOfStress energy(mesh, term);
-  const Eigen::Index nodes = mesh.cells.nodes_per_cell();
+  const Eigen::Index nodes = mesh.type(static_cast<std::size_t>(term.cell(0))).num_nodes();
   double sum = 0;
   for (int k = 0; k < term.size(); ++k) {
     const Eigen::Index first = nodes * places[static_cast<std::size_t>(k)];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -39,10 +38,9 @@ Vector monomials(const Vec3& x, int degree) {
 // Patches of elements around corner nodes.
 class RegionNeighbours {
  public:
-  RegionNeighbours(const Cells& cells, int corners, std::size_t nodes)
-      : cells_(cells), corners_(static_cast<std::size_t>(corners)), at_(nodes), mark_(cells.size(), -1) {
+  RegionNeighbours(const Cells& cells, std::size_t nodes) : cells_(cells), at_(nodes), mark_(cells.size(), -1) {
     for (std::size_t k = 0; k < cells.size(); ++k)
-      for (const int node : corners_of(k)) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
+      for (const int node : cells.corners(k)) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
   }
 
   // Elements at a corner; empty for other nodes.
@@ -55,13 +53,11 @@ class RegionNeighbours {
   bool grow(int node, std::vector<int>& patch) {
     const std::size_t size = patch.size();
     for (std::size_t i = 0; i < size; ++i)
-      for (const int other : corners_of(static_cast<std::size_t>(patch[i]))) add(node, other, patch);
+      for (const int other : cells_.corners(static_cast<std::size_t>(patch[i]))) add(node, other, patch);
     return patch.size() > size;
   }
 
  private:
-  std::span<const int> corners_of(std::size_t cell) const { return cells_[cell].first(corners_); }
-
   void add(int centre, int node, std::vector<int>& patch) {
     for (const int k : at_[static_cast<std::size_t>(node)]) {
       int& mark = mark_[static_cast<std::size_t>(k)];
@@ -72,7 +68,6 @@ class RegionNeighbours {
   }
 
   const Cells& cells_;
-  std::size_t corners_;
   std::vector<std::vector<int>> at_;
   std::vector<int> mark_;  // per element: the last patch that contains it
 };
@@ -115,53 +110,59 @@ std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre
 
 RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points)
     : per_element_(num_points) {
-  std::vector<int> row_of(mesh.nodes.size(), -1), all;
-  all.reserve(cells.size() * static_cast<std::size_t>(mesh.cells.nodes_per_cell()));
-  for (const int cell : cells)
+  std::vector<int> row_of(mesh.nodes.size(), -1), rows;
+  for (const int cell : cells) {
+    rows.clear();
     for (const int node : mesh.cells[static_cast<std::size_t>(cell)]) {
       int& row = row_of[static_cast<std::size_t>(node)];
       if (row < 0) {
         row = static_cast<int>(nodes_.size());
         nodes_.push_back(node);
       }
-      all.push_back(row);
+      rows.push_back(row);
     }
-  cells_ = Cells(mesh.cells.nodes_per_cell(), std::move(all));
+    cells_.add(mesh.cells.shape(static_cast<std::size_t>(cell)), rows);
+  }
+  if (cells.empty()) return;
+  const ElementType& type = mesh.type(static_cast<std::size_t>(cells.front()));
+  degree_ = type.degree();
   places_.resize(3, per_element_ * static_cast<Eigen::Index>(cells.size()));
   for (std::size_t k = 0; k < cells.size(); ++k)
     places_.middleCols(per_element_ * static_cast<Eigen::Index>(k), per_element_) =
-        mesh.type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
+        type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
 
-  const int degree = mesh.type.degree();
-  RegionNeighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
+  RegionNeighbours neighbours(cells_, nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
     const Vec3& centre = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(row)])];
-    auto [found, determined] = fit(places_of(elements), centre, degree);
+    auto [found, determined] = fit(places_of(elements), centre, degree_);
     for (int ring = 0; !determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
-      std::tie(found, determined) = fit(places_of(elements), centre, degree);
+      std::tie(found, determined) = fit(places_of(elements), centre, degree_);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
     elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found), {}});
   }
   patches_.shrink_to_fit();
-  add_middles(mesh.type, patch_of);
+  add_middles(patch_of);
 }
 
-void RegionRecovery::add_middles(const ElementType& type, const std::vector<int>& patch_of) {
+void RegionRecovery::add_middles(const std::vector<int>& patch_of) {
   std::vector<bool> is_known(nodes_.size(), false);
-  for (std::size_t k = 0; k < cells_.size(); ++k)
-    for (std::size_t e = 0; e < type.edges_with_middles().size(); ++e) {
-      const int middle = cells_[k][static_cast<std::size_t>(type.num_corners()) + e];
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const CellTopology& cell = topology(cells_.shape(k));
+    for (std::size_t m = 0; m < cell.middles.size(); ++m) {
+      const int middle = cells_[k][static_cast<std::size_t>(cell.corners) + m];
       if (is_known[static_cast<std::size_t>(middle)]) continue;
       is_known[static_cast<std::size_t>(middle)] = true;
-      for (const int corner : type.edges_with_middles()[e]) {
+      const double share = 1.0 / static_cast<double>(cell.middles[m].size());
+      for (const int corner : cell.middles[m]) {
         const int row = cells_[k][static_cast<std::size_t>(corner)];
-        patches_[static_cast<std::size_t>(patch_of[static_cast<std::size_t>(row)])].middles.push_back(middle);
+        patches_[static_cast<std::size_t>(patch_of[static_cast<std::size_t>(row)])].middles.push_back({middle, share});
       }
     }
+  }
 }
 
 Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) const {
@@ -173,12 +174,11 @@ Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) con
 }
 
 SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const {
-  return mesh.type.degree() == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
+  return degree_ == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
 }
 
 Vec6 RegionRecovery::at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const {
-  return mesh.type.degree() == 1 ? at_node_with<kLinear>(mesh, row, at_point)
-                                 : at_node_with<kQuadratic>(mesh, row, at_point);
+  return degree_ == 1 ? at_node_with<kLinear>(mesh, row, at_point) : at_node_with<kQuadratic>(mesh, row, at_point);
 }
 
 // Fits polynomials to values at the points of patches.
@@ -240,7 +240,7 @@ SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColum
   for (const Patch& patch : patches_) {
     solver.fit(patch, [&](int k, int p) { return at_points.row(per_element_ * k + p); });
     out.row(patch.row) = solver.at(patch.row);
-    for (const int middle : patch.middles) out.row(middle) += 0.5 * solver.at(middle);
+    for (const auto& [middle, share] : patch.middles) out.row(middle) += share * solver.at(middle);
   }
   return out;
 }
@@ -251,10 +251,12 @@ Vec6 RegionRecovery::at_node_with(const ElementMesh& mesh, int row, const AtPoin
   PatchSolver<kCoefficients> solver(*this, mesh);
   for (const Patch& patch : patches_) {
     const bool is_centre = patch.row == row;
-    if (!is_centre && std::find(patch.middles.begin(), patch.middles.end(), row) == patch.middles.end()) continue;
+    const auto middle =
+        std::find_if(patch.middles.begin(), patch.middles.end(), [&](const Middle& m) { return m.row == row; });
+    if (!is_centre && middle == patch.middles.end()) continue;
     solver.fit(patch,
                [&](int k, int p) -> typename PatchSolver<kCoefficients>::Row { return at_point(k, p).transpose(); });
-    out += (is_centre ? 1.0 : 0.5) * solver.at(row).transpose();
+    out += (is_centre ? 1.0 : middle->share) * solver.at(row).transpose();
   }
   return out;
 }

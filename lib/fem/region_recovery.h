@@ -1,7 +1,7 @@
 // Recovers nodal values of a region from its integration points, where stresses are most accurate. Around each corner,
 // a polynomial of the element degree is fitted by least squares (Zienkiewicz & Zhu 1992, Int. J. Numer. Meth. Eng. 33,
-// 1331) to the points of the elements at the corner and, if these are too few, of their neighbours. An edge midpoint
-// takes the mean of the polynomials of its two corners.
+// 1331) to the points of the elements at the corner and, if these are too few, of their neighbours. The middle of an
+// edge, face or cell takes the mean of the polynomials of its corners.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ struct PatchFit {
 // Recovery for one region. Point p of element k has the index num_points * k + p.
 class RegionRecovery {
  public:
-  // `cells`: the region's elements, by their indices in the mesh.
+  // `cells`: the region's elements, by their indices in the mesh, all of one type.
   RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points);
 
   // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node. `mesh`: that
@@ -43,14 +43,19 @@ class RegionRecovery {
   const Cells& cells() const { return cells_; }
 
  private:
+  // A node in the middle of an edge, face or cell, and the weight of a corner's polynomial there.
+  struct Middle {
+    int row;
+    double share;
+  };
   struct Patch {
     int row;                    // of the centre in nodes()
     std::vector<int> elements;  // numbers of elements in the region
     PatchFit fit;
-    std::vector<int> middles;  // rows of the adjacent edge midpoints
+    std::vector<Middle> middles;  // around the corner
   };
 
-  void add_middles(const ElementType& type, const std::vector<int>& patch_of);
+  void add_middles(const std::vector<int>& patch_of);
   Eigen::Matrix3Xd places_of(const std::vector<int>& elements) const;
   template <int kCoefficients>
   class PatchSolver;
@@ -62,6 +67,7 @@ class RegionRecovery {
   std::vector<int> nodes_;
   Cells cells_;
   Eigen::Index per_element_;    // points per element
+  int degree_ = 1;              // of the polynomials
   Eigen::Matrix3Xd places_;     // positions of the points, m
   std::vector<Patch> patches_;  // one per corner
 };

@@ -33,7 +33,7 @@ class StressRecovery {
 
   // All arguments must outlive this object. With several ranks, `mesh` is the whole mesh, states belong to the
   // subdomain, and all functions are collective.
-  StressRecovery(const TetMesh& mesh, const Terms& terms, const Subdomain* subdomain)
+  StressRecovery(const Mesh& mesh, const Terms& terms, const Subdomain* subdomain)
       : mesh_(mesh), terms_(terms), subdomain_(subdomain) {}
 
   std::size_t num_nodes() const { return mesh_.nodes.size(); }
@@ -73,7 +73,7 @@ class StressRecovery {
   Region make_region(const ElementMesh& mesh, const ElasticTerm& term) const;
   SixColumns of_all_ranks(std::size_t region, SixColumns at_points) const;
 
-  const TetMesh& mesh_;
+  const Mesh& mesh_;
   const Terms& terms_;
   const Subdomain* subdomain_;
   mutable std::once_flag once_;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/partition.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/mesh/tet_faces.h"
 
 namespace orthodyn {
 
@@ -14,26 +14,26 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Subdomain::Subdomain(const TetMesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks)
+Subdomain::Subdomain(const Mesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks)
     : ranks_(ranks), local_(mesh.nodes.size(), -1) {
-  const std::vector<TetFace> faces = sorted_faces(mesh);
-  const std::vector<int> rank_of_cell = ranks.partition(cell_graph(faces, mesh.tets.size()));
+  const std::vector<MeshFace> faces = sorted_faces(mesh);
+  const std::vector<int> rank_of_cell = ranks.partition(cell_graph(faces, mesh.cells.size()));
   for (std::size_t cell = 0; cell < rank_of_cell.size(); ++cell)
     if (rank_of_cell[cell] == ranks.rank()) cells_.push_back(static_cast<int>(cell));
   for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin)) {
     int first = ranks.size();
     for (std::size_t k = begin; k < end_of_face(faces, begin); ++k)
-      first = std::min(first, rank_of_cell[at(faces[k].tet)]);
-    if (first == ranks.rank()) faces_.push_back(faces[begin].nodes);
+      first = std::min(first, rank_of_cell[at(faces[k].cell)]);
+    if (first == ranks.rank()) faces_.push_back(faces[begin].corners);
   }
   find_nodes(mesh, rank_of_cell, links);
 }
 
-void Subdomain::find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_cell,
+void Subdomain::find_nodes(const Mesh& mesh, const std::vector<int>& rank_of_cell,
                            const std::vector<std::pair<int, int>>& links) {
   const int me = ranks_.rank();
   const std::size_t count = mesh.nodes.size();
-  NodeRanks ranks_of(tet_cells(mesh), rank_of_cell, count);
+  NodeRanks ranks_of(mesh.cells, rank_of_cell, count);
   std::vector<int> owner(count), place(count), owned(at(ranks_.size()), 0);
   std::vector<char> is_here(count, 0);
   for (std::size_t node = 0; node < count; ++node) {
@@ -59,19 +59,15 @@ void Subdomain::find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_
   exchange_ = ranks_.exchange(num_owned_, copies);
 }
 
-TetMesh Subdomain::part_of(const TetMesh& mesh) const {
-  const auto renumbered = [&](auto nodes) {
-    for (int& node : nodes) node = local(node);
-    return nodes;
-  };
-  TetMesh part;
+Mesh Subdomain::part_of(const Mesh& mesh) const {
+  Mesh part;
   part.region_names = mesh.region_names;
   for (const int node : nodes_) part.nodes.push_back(mesh.nodes[at(node)]);
   for (const int cell : cells_) {
-    part.tets.push_back(renumbered(mesh.tets[at(cell)]));
-    if (mesh.order() == 2) part.midsides.push_back(renumbered(mesh.midsides[at(cell)]));
+    part.cells.add(mesh.cells.shape(at(cell)), mesh.cells[at(cell)]);
     part.region_of.push_back(mesh.region_of[at(cell)]);
   }
+  for (int& node : part.cells.nodes()) node = local(node);
   return part;
 }
 
@@ -89,9 +85,8 @@ std::vector<int> Subdomain::owned(const std::vector<int>& nodes) const {
   return out;
 }
 
-bool Subdomain::has_face(std::span<const int> corners) const {
-  Triangle face{corners[0], corners[1], corners[2]};
-  sort_nodes(face);
+bool Subdomain::has_face(FaceCorners face) const {
+  face.sort();
   return std::binary_search(faces_.begin(), faces_.end(), face);
 }
 

@@ -15,7 +15,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/ranks.h"
 #include "lib/fem/dof_map.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -23,7 +23,7 @@ class Subdomain {
  public:
   // For each node pair in `links`, the owner of the first node also gets the second. Collective: every rank passes the
   // whole mesh. `ranks` must outlive this object.
-  Subdomain(const TetMesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks);
+  Subdomain(const Mesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks);
 
   const Ranks& ranks() const { return ranks_; }
 
@@ -38,7 +38,7 @@ class Subdomain {
   bool owns(int node) const { return local(node) >= 0 && local(node) < num_owned_; }
 
   // The local mesh: cells, nodes and regions, without surfaces and node sets.
-  TetMesh part_of(const TetMesh& mesh) const;
+  Mesh part_of(const Mesh& mesh) const;
 
   // Restricts values per coordinate (3 * node + component) of the mesh to the local nodes.
   template <class T>
@@ -61,9 +61,9 @@ class Subdomain {
       if (owns(node)) out.emplace_back(local(node), value);
     return out;
   }
-  // Whether the face with these corners belongs to this rank. A face belongs to the lowest rank with a cell at the
+  // Whether a face belongs to this rank. A face belongs to the lowest rank with a cell at the
   // face.
-  bool has_face(std::span<const int> corners) const;
+  bool has_face(FaceCorners face) const;
 
   // Vectors with one column per local node. copy_from_owners() sets the columns of copies to those of the owners;
   // add_to_owners() adds the columns of all copies to those of the owners and sets the copies to zero. Collective.
@@ -78,13 +78,13 @@ class Subdomain {
   void agree(const std::string& trouble) const;
 
  private:
-  void find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_cell,
+  void find_nodes(const Mesh& mesh, const std::vector<int>& rank_of_cell,
                   const std::vector<std::pair<int, int>>& links);
 
   const Ranks& ranks_;
   std::vector<int> cells_, nodes_, local_;
   int num_owned_ = 0;
-  std::vector<Triangle> faces_;  // faces of this rank, with corners in ascending order
+  std::vector<FaceCorners> faces_;  // faces of this rank, sorted
   std::unique_ptr<NodeExchange> exchange_;
 };
 

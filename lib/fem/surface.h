@@ -7,24 +7,24 @@
 
 #include "lib/config/formula.h"
 #include "lib/core/types.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
 using NodalForces = std::vector<std::pair<int, Vec3>>;  // node, N
 
-double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles);  // m^2
+double surface_area(const Mesh& mesh, const std::vector<FaceCorners>& faces);  // m^2
 
 // Nodal forces of a traction t (Pa, per undeformed area): F_i = integral of N_i t dA, with shape functions N_i. Nodes
 // are in ascending order.
-NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction);
+NodalForces surface_forces(const Mesh& mesh, const std::vector<FaceCorners>& faces, const Vec3& traction);
 
 // Likewise for a traction that depends on the rest position. Exact for polynomials of degree 4 on faces of linear
 // tetrahedra, and of degree 3 on plane faces of quadratic tetrahedra.
-NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
+NodalForces surface_forces(const Mesh& mesh, const std::vector<FaceCorners>& faces,
                            const std::array<PointQuantity, 3>& traction);
 
 // Surface area per node (m^2, positive), for node-wise effects such as contact.
-std::vector<std::pair<int, double>> node_areas(const TetMesh& mesh, const std::vector<Triangle>& triangles);
+std::vector<std::pair<int, double>> node_areas(const Mesh& mesh, const std::vector<FaceCorners>& faces);
 
 }  // namespace orthodyn

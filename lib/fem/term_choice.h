@@ -11,7 +11,7 @@
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/term.h"
 #include "lib/fem/terms/elasticity_options.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 #include "lib/ode/model.h"
 
 namespace orthodyn {
@@ -19,7 +19,7 @@ namespace orthodyn {
 // The body that a term acts on. Everything except the mesh outlives the term. With several ranks, `mesh` and `rest`
 // belong to the whole body; `pattern` and `nodal_masses` belong to this rank's subdomain and are used by Term::part().
 struct Discretization {
-  const TetMesh& mesh;
+  const Mesh& mesh;
   const NodalVector& rest;  // node positions at rest, m
   const BlockPattern& pattern;
   const Vector& nodal_masses;        // kg, the row sums of the mass matrix
@@ -39,11 +39,11 @@ class TermChoice {
   virtual std::unique_ptr<Term> make(const Discretization& body) const = 0;
 
   // Node pairs without a common element that the term's tangent couples.
-  virtual NodePairs couplings(const TetMesh& /*mesh*/) const { return {}; }
+  virtual NodePairs couplings(const Mesh& /*mesh*/) const { return {}; }
 
   // Whether -df/dx is symmetric, apart from velocity-dependent forces, for a body that is held in the coordinates
   // `held` (3 * node + component). If not, statics store the general K, and dynamics use its symmetric part.
-  virtual bool has_symmetric_tangent(const TetMesh& /*mesh*/, const std::vector<bool>& /*held*/) const { return true; }
+  virtual bool has_symmetric_tangent(const Mesh& /*mesh*/, const std::vector<bool>& /*held*/) const { return true; }
 
   // Sets the traits that the term changes; nothing for a conservative linear force. Set damping_matrix if the force
   // depends on velocity (methods with a mean force omit it otherwise), time_dependent if it depends on t, linear =

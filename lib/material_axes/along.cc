@@ -46,7 +46,7 @@ class Along : public AxesSource {
     return s;
   }
 
-  AxesField field(const TetMesh&, Warnings&) const override {
+  AxesField field(const Mesh&, Warnings&) const override {
     const auto curve = std::make_shared<const Curve>(make_curve());
     return [this, curve](const Vec3& place, int) {
       const Curve::FootPoint foot = curve->nearest(place);

@@ -62,16 +62,16 @@ std::vector<Components> axes_of(const LoadedMesh& loaded, const std::string& pat
                                       names.empty() ? "none" : join(names)));
 }
 
-AxesRows read_axes_mesh(const FilePath& file) {
-  LoadedMesh loaded = read_mesh(file.path);
+AxesRows read_axes_mesh(const FilePath& file, FileCells cells) {
+  LoadedMesh loaded = read_mesh(file.path, cells);
   const auto axes = axes_of(loaded, file.path);
   AxesRows out{{}, axes.size() == 3, true, file.path, {}};
-  for (std::size_t tet = 0; tet < loaded.mesh.tets.size(); ++tet) {
+  for (std::size_t e = 0; e < loaded.mesh.cells.size(); ++e) {
     Mat3 m = Mat3::Zero();
-    for (std::size_t i = 0; i < axes.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = axes[i].of(tet);
-    const int cell = loaded.mesh.cell_of.empty() ? static_cast<int>(tet) : loaded.mesh.cell_of[tet];
+    for (std::size_t i = 0; i < axes.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = axes[i].of(e);
+    const int cell = loaded.mesh.cell_of.empty() ? static_cast<int>(e) : loaded.mesh.cell_of[e];
     if (!m.allFinite()) throw ConfigError(file.path, fmt::format("cell {}: an axis is not a finite number", cell));
-    out.rows.push_back({static_cast<int>(tet), m, cell});
+    out.rows.push_back({static_cast<int>(e), m, cell});
   }
   out.mesh = std::move(loaded.mesh);
   return out;
@@ -79,11 +79,11 @@ AxesRows read_axes_mesh(const FilePath& file) {
 
 }  // namespace
 
-AxesRows read_axes_rows(const FilePath& file) {
+AxesRows read_axes_rows(const FilePath& file, FileCells cells) {
   const std::string extension = std::filesystem::path(file.path).extension().string();
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
-  if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file);
+  if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file, cells);
   throw ConfigError(file.where,
                     fmt::format("axes cannot be read from a file of type '{}'; known: .csv, .vtu, .inp", extension));
 }

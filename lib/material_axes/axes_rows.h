@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/config/values.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {
 
@@ -22,7 +22,7 @@ struct AxesRows {
   bool has_third = false;        // axis 3 is given; otherwise it is 1 x 2
   bool one_per_element = false;  // rows have no element numbers; row k belongs to element k
   std::string path;
-  std::optional<TetMesh> mesh;  // mesh of the file, if it has one
+  std::optional<Mesh> mesh;  // mesh of the file, if it has one
 
   std::string where(const Row& row) const { return fmt::format("{}{}{}", path, mesh ? ": cell " : ":", row.place); }
 };
@@ -31,6 +31,6 @@ struct AxesRows {
 // axis_1, axis_2 and optionally axis_3 (3 components each), or axes (9: axis 1, axis 2, axis 3); or an Abaqus file
 // whose sections have orientations. Vectors may have any nonzero length. Throws ConfigError (see read_csv(),
 // read_vtu()).
-AxesRows read_axes_rows(const FilePath& file);
+AxesRows read_axes_rows(const FilePath& file, FileCells cells);
 
 }  // namespace orthodyn

@@ -4,7 +4,10 @@ namespace orthodyn {
 
 ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementMesh& mesh,
                          const std::vector<int>& cells) {
-  const auto points_of = [&](int cell) { return mesh.type.points(mesh.positions(static_cast<std::size_t>(cell))); };
+  const auto points_of = [&](int cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    return mesh.type(c).points(mesh.positions(c));
+  };
   const ElementType::Nodes first = points_of(cells.front());
   if (source.uniform()) return field(first.col(0), cells.front());
   std::vector<Mat3> each;

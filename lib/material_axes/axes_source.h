@@ -6,7 +6,7 @@
 #include "lib/config/registry.h"
 #include "lib/fem/element_axes.h"
 #include "lib/fem/element_mesh.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -22,7 +22,7 @@ class AxesSource {
 
   // Adds a sentence to `notes` for each change of the input. The source must outlive the field. Throws ConfigError if
   // the input does not match the mesh.
-  virtual AxesField field(const TetMesh& mesh, Warnings& notes) const = 0;
+  virtual AxesField field(const Mesh& mesh, Warnings& notes) const = 0;
 };
 
 // The axes at the integration points of the elements `cells`.

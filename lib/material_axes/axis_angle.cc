@@ -19,7 +19,7 @@ class AxisAngle : public AxesSource {
 
   bool uniform() const override { return true; }
 
-  AxesField field(const TetMesh&, Warnings&) const override {
+  AxesField field(const Mesh&, Warnings&) const override {
     const Eigen::Quaterniond q(Eigen::AngleAxisd(angle_, axis_.stableNormalized()));
     return [Q = q.normalized().toRotationMatrix()](const Vec3&, int) { return Q; };
   }

@@ -23,7 +23,7 @@ class Cylindrical : public AxesSource {
     return s;
   }
 
-  AxesField field(const TetMesh&, Warnings&) const override {
+  AxesField field(const Mesh&, Warnings&) const override {
     return [this, L = Vec3(axis_.stableNormalized())](const Vec3& place, int) {
       const Vec3 arm = place - point_, radial = arm - L.dot(arm) * L;
       const double noise = 1e-12 * (place.norm() + point_.norm());

@@ -25,7 +25,7 @@ class Directions : public AxesSource {
 
   bool uniform() const override { return true; }
 
-  AxesField field(const TetMesh&, Warnings& notes) const override {
+  AxesField field(const Mesh&, Warnings& notes) const override {
     if (!third_) return [Q = frame(first_, second_)](const Vec3&, int) { return Q; };
     if (const auto note = repair_note(columns()); !note.empty()) notes.push_back(origin.where + ": " + note);
     return [Q = nearest_axes(columns())](const Vec3&, int) { return Q; };

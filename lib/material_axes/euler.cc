@@ -41,7 +41,7 @@ class Euler : public AxesSource {
 
   bool uniform() const override { return true; }
 
-  AxesField field(const TetMesh&, Warnings&) const override {
+  AxesField field(const Mesh&, Warnings&) const override {
     const std::string axes = Value<EulerConvention>::yaml(convention_);
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     for (std::size_t i = 0; i < 3; ++i)

@@ -25,19 +25,19 @@ class AxesFile : public AxesSource {
     return s;
   }
 
-  AxesField field(const TetMesh& mesh, Warnings& notes) const override {
-    const AxesRows given = read_axes_rows(file_);
-    // CSV rows refer to elements of the mesh file, which may have been split into several tets.
+  AxesField field(const Mesh& mesh, Warnings& notes) const override {
+    const AxesRows given = read_axes_rows(file_, mesh.has_tets_only() ? FileCells::split : FileCells::keep);
+    // CSV rows refer to elements of the mesh file, which may have been split into several cells.
     const std::vector<int> cell_of = given.mesh ? std::vector<int>{} : mesh.cell_of;
-    const auto num_elements = given.mesh        ? given.mesh->tets.size()
-                              : cell_of.empty() ? mesh.tets.size()
+    const auto num_elements = given.mesh        ? given.mesh->cells.size()
+                              : cell_of.empty() ? mesh.cells.size()
                                                 : static_cast<std::size_t>(cell_of.back()) + 1;
     if (given.one_per_element && given.rows.size() != num_elements)
       throw ConfigError(
           given.path,
           fmt::format("{} rows for a mesh of {} elements{}; give one row per element, or a column 'element'",
                       given.rows.size(), num_elements,
-                      cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
+                      cell_of.empty() ? "" : fmt::format(" (split into {} cells)", mesh.cells.size())));
     const std::size_t children = given.mesh ? children_in(given, mesh) : 1;
     if (given.mesh) check_same_mesh(given, mesh, children);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
@@ -50,8 +50,8 @@ class AxesFile : public AxesSource {
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
-    return [this, axes, cell_of, children](const Vec3&, int tet) {
-      const int element = cell_of.empty() ? tet / static_cast<int>(children) : cell_of[static_cast<std::size_t>(tet)];
+    return [this, axes, cell_of, children](const Vec3&, int cell) {
+      const int element = cell_of.empty() ? cell / static_cast<int>(children) : cell_of[static_cast<std::size_t>(cell)];
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
       if (Q.isZero(0)) throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
       return Q;
@@ -59,31 +59,31 @@ class AxesFile : public AxesSource {
   }
 
  private:
-  // Number of children of each tet of the file after `refine`: 1, 8, 64, ... Children of a tet are consecutive
+  // Number of children of each cell of the file after `refine`: 1, 8, 64, ... Children of a cell are consecutive
   // (lib/mesh/refine.h).
-  static std::size_t children_in(const AxesRows& given, const TetMesh& mesh) {
-    const std::size_t there = given.mesh->tets.size(), here = mesh.tets.size();
+  static std::size_t children_in(const AxesRows& given, const Mesh& mesh) {
+    const std::size_t there = given.mesh->cells.size(), here = mesh.cells.size();
     std::size_t children = 1;
     while (there * children < here) children *= 8;
     if (there * children != here)
       throw ConfigError(given.path,
-                        fmt::format("{} tetrahedra for a mesh of {}; the axes belong to another mesh", there, here));
+                        fmt::format("{} cells for a mesh of {}; the axes belong to another mesh", there, here));
     return children;
   }
 
-  // Mean of the centroids of the children of a tet, which is the centroid of the tet if its edges are straight.
-  static Vec3 centre(const TetMesh& mesh, std::size_t tet, std::size_t children) {
+  // Mean of the centroids of the children of a cell, which is the centroid of the cell if its edges are straight.
+  static Vec3 centre(const Mesh& mesh, std::size_t cell, std::size_t children) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < children; ++k) sum += centroid(mesh, static_cast<int>(tet * children + k));
+    for (std::size_t k = 0; k < children; ++k) sum += centroid(mesh, static_cast<int>(cell * children + k));
     return sum / static_cast<double>(children);
   }
 
   // Checks that the elements of both meshes have the same positions up to a translation and a scale (`scale: 0.001` for
   // mm). Curved edges shift the children by less than a quarter of an element.
-  static void check_same_mesh(const AxesRows& given, const TetMesh& mesh, std::size_t children) {
-    const std::size_t count = given.mesh->tets.size();
+  static void check_same_mesh(const AxesRows& given, const Mesh& mesh, std::size_t children) {
+    const std::size_t count = given.mesh->cells.size();
     if (count < 2) return;
-    const auto extent = [&](const TetMesh& m, std::size_t of_each) {
+    const auto extent = [&](const Mesh& m, std::size_t of_each) {
       Box box{centre(m, 0, of_each), centre(m, 0, of_each)};
       for (std::size_t e = 1; e < count; ++e) {
         const Vec3 c = centre(m, e, of_each);
@@ -95,7 +95,7 @@ class AxesFile : public AxesSource {
     for (std::size_t e = 0; e < count; ++e) {
       const Vec3 a = (centre(*given.mesh, e, 1) - there.min) / there.diagonal(),
                  b = (centre(mesh, e, children) - here.min) / here.diagonal();
-      const double size = std::cbrt(std::abs(signed_volume6(*given.mesh, given.mesh->tets[e]))) / there.diagonal();
+      const double size = std::cbrt(6 * std::abs(cell_volume(*given.mesh, e))) / there.diagonal();
       if (!((a - b).norm() < (children == 1 ? 1e-4 : std::max(1e-4, 0.25 * size))))
         throw ConfigError(given.path,
                           fmt::format("cell {} and element {} of the scene's mesh have different positions; the axes "

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "lib/config/values.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 

@@ -23,7 +23,7 @@ class MatrixAxes : public AxesSource {
 
   bool uniform() const override { return true; }
 
-  AxesField field(const TetMesh&, Warnings& notes) const override {
+  AxesField field(const Mesh&, Warnings& notes) const override {
     if (const auto note = repair_note(matrix_); !note.empty()) notes.push_back(origin.where + ": " + note);
     return [Q = nearest_axes(matrix_)](const Vec3&, int) { return Q; };
   }

@@ -32,7 +32,7 @@ class Spherical : public AxesSource {
     return s;
   }
 
-  AxesField field(const TetMesh&, Warnings&) const override {
+  AxesField field(const Mesh&, Warnings&) const override {
     return [this, pole = Vec3(pole_.stableNormalized())](const Vec3& place, int) {
       const double noise = 1e-12 * (place.norm() + center_.norm());
       Vec3 radial = place - center_;

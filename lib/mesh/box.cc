@@ -23,10 +23,18 @@ std::span<const Tet> cell_tets(BoxMesh::Split split) {
   return kSix;
 }
 
+double elements_per_cell(const BoxMesh& box) {
+  switch (box.elements) {
+    case BoxMesh::Elements::hexahedra: return 1;
+    case BoxMesh::Elements::wedges: return 2;
+    default: return static_cast<double>(cell_tets(box.split).size());
+  }
+}
+
 void check(const BoxMesh& box) {
   constexpr const char* kAxis[] = {"x", "y", "z"};
   double nodes = 1;
-  double tets = static_cast<double>(cell_tets(box.split).size());
+  double elements = elements_per_cell(box);
   for (std::size_t a = 0; a < 3; ++a) {
     const double size = box.size[static_cast<Eigen::Index>(a)];
     if (!(size > 0) || !std::isfinite(size))
@@ -34,13 +42,14 @@ void check(const BoxMesh& box) {
     if (box.cells[a] < 1)
       throw ConfigError(fmt::format("{} cells along {}; there must be at least 1", box.cells[a], kAxis[a]));
     nodes *= box.cells[a] + 1.0;
-    tets *= box.cells[a];
+    elements *= box.cells[a];
   }
   if (!box.origin.allFinite()) throw ConfigError("the origin of the box is not finite");
   constexpr int kMax = std::numeric_limits<int>::max();
-  if (nodes > kMax || tets > kMax)
-    throw ConfigError(fmt::format("{} x {} x {} cells make {:.3g} nodes and {:.3g} tets; at most {} can be numbered",
-                                  box.cells[0], box.cells[1], box.cells[2], nodes, tets, kMax));
+  if (nodes > kMax || elements > kMax)
+    throw ConfigError(
+        fmt::format("{} x {} x {} cells make {:.3g} nodes and {:.3g} elements; at most {} can be numbered",
+                    box.cells[0], box.cells[1], box.cells[2], nodes, elements, kMax));
 }
 
 // Converts between node numbers and grid indices.
@@ -90,11 +99,32 @@ std::vector<Tet> make_tets(const BoxMesh& box) {
   return tets;
 }
 
-// The name of the side of the box that contains all three nodes.
-std::string side_of(const Grid& grid, const Triangle& triangle) {
-  const std::array<int, 3> a = grid.place(triangle[0]);
-  const std::array<int, 3> b = grid.place(triangle[1]);
-  const std::array<int, 3> c = grid.place(triangle[2]);
+// Hexahedra or wedges.
+Cells make_cells(const BoxMesh& box) {
+  const Grid grid{box.cells};
+  Cells cells;
+  for (int k = 0; k < box.cells[2]; ++k)
+    for (int j = 0; j < box.cells[1]; ++j)
+      for (int i = 0; i < box.cells[0]; ++i) {
+        const auto at = [&](int x, int y, int z) { return grid.node(i + x, j + y, k + z); };
+        if (box.elements == BoxMesh::Elements::hexahedra) {
+          cells.add(CellShape::hex8, std::array{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1),
+                                                at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+          continue;
+        }
+        cells.add(CellShape::wedge6, std::array{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0),  //
+                                                at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)});
+        cells.add(CellShape::wedge6, std::array{at(0, 0, 0), at(1, 1, 0), at(0, 1, 0),  //
+                                                at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+      }
+  return cells;
+}
+
+// The name of the side of the box that contains the first three corners.
+std::string side_of(const Grid& grid, const FaceCorners& face) {
+  const std::array<int, 3> a = grid.place(face[0]);
+  const std::array<int, 3> b = grid.place(face[1]);
+  const std::array<int, 3> c = grid.place(face[2]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
     if (a[axis] == 0) return std::string(1, "xyz"[axis]) + "0";
@@ -105,15 +135,14 @@ std::string side_of(const Grid& grid, const Triangle& triangle) {
 
 }  // namespace
 
-TetMesh make_box(const BoxMesh& box) {
+Mesh make_box(const BoxMesh& box) {
   check(box);
-  TetMesh mesh;
+  Mesh mesh;
   mesh.nodes = make_nodes(box);
-  mesh.tets = make_tets(box);
-  mesh.region_of.assign(mesh.tets.size(), 0);
+  mesh.cells = box.elements == BoxMesh::Elements::tetrahedra ? Cells(make_tets(box)) : make_cells(box);
+  mesh.region_of.assign(mesh.cells.size(), 0);
   mesh.region_names = {"body"};
-  for (const Triangle& triangle : boundary_triangles(mesh))
-    mesh.surfaces[side_of({box.cells}, triangle)].push_back(triangle);
+  for (const FaceCorners& face : boundary_faces(mesh)) mesh.surfaces[side_of({box.cells}, face)].push_back(face);
   return mesh;
 }
 

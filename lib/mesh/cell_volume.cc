@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "lib/mesh/element_of_shape.h"
 #include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
@@ -59,7 +60,45 @@ double flux_of_triangle(const std::array<Vec3, 3>& c, const std::array<Vec3, 3>&
   return sum;
 }
 
+// The node in the middle of a quadrilateral of eight nodes: corners x, mid-edge nodes m.
+Vec3 serendipity_middle(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& m) {
+  return -0.25 * (x[0] + x[1] + x[2] + x[3]) + 0.5 * (m[0] + m[1] + m[2] + m[3]);
+}
+
+std::array<std::array<Vec3, 3>, 3> grid_of(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& m,
+                                           const Vec3& middle) {
+  return {{{x[0], m[3], x[3]}, {m[0], middle, m[2]}, {x[1], m[1], x[2]}}};
+}
+
+double volume_by_faces(const Mesh& mesh, std::size_t c) {
+  const auto nodes = mesh.cells[c];
+  const CellTopology& cell = topology(mesh.cells.shape(c));
+  double sum = 0;
+  for (std::size_t f = 0; f < cell.faces.size(); ++f) {
+    const std::vector<int>& face = cell.faces[f];
+    const auto at = [&](std::size_t k) -> const Vec3& { return mesh.node(nodes[static_cast<std::size_t>(face[k])]); };
+    const auto corners = static_cast<std::size_t>(cell.corners_of_face(f));
+    std::array<Vec3, 4> x, m;
+    for (std::size_t k = 0; k < corners; ++k) {
+      x[k] = at(k);
+      m[k] = cell.order == 2 ? at(corners + k) : Vec3((at(k) + at((k + 1) % corners)) / 2);
+    }
+    sum += corners == 3                ? flux_of_triangle({x[0], x[1], x[2]}, {m[0], m[1], m[2]})
+           : face.size() > 2 * corners ? flux_of_quadrilateral(grid_of(x, m, at(2 * corners)))
+                                       : flux_of_quadrilateral(grid_of(x, m, serendipity_middle(x, m)));
+  }
+  return sum / 3;
+}
+
 }  // namespace
+
+double cell_volume(const Mesh& mesh, std::size_t cell) {
+  const auto nodes = mesh.cells[cell];
+  if (mesh.cells.shape(cell) == CellShape::tet4)
+    return signed_volume6(mesh, {nodes[0], nodes[1], nodes[2], nodes[3]}) / 6;
+  if (mesh.cells.shape(cell) == CellShape::tet10) return Tet10::mass(positions<Tet10>(mesh, cell), 1);
+  return volume_by_faces(mesh, cell);
+}
 
 double volume_of(const FileCell& cell, const std::function<const Vec3&(std::int64_t)>& position) {
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> middles;
@@ -85,10 +124,8 @@ double volume_of(const FileCell& cell, const std::function<const Vec3&(std::int6
       continue;
     }
     const auto own = middles.find(std::minmax(n[0], n[2]));
-    const Vec3 centre = own == middles.end()
-                            ? Vec3(-0.25 * (c[0] + c[1] + c[2] + c[3]) + 0.5 * (m[0] + m[1] + m[2] + m[3]))
-                            : position(own->second);
-    sum -= flux_of_quadrilateral({{{c[0], m[3], c[3]}, {m[0], centre, m[2]}, {c[1], m[1], c[2]}}});
+    const Vec3 centre = own == middles.end() ? serendipity_middle(c, m) : position(own->second);
+    sum -= flux_of_quadrilateral(grid_of(c, m, centre));
   }
   return sum / 3;
 }

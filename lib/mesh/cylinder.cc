@@ -194,7 +194,7 @@ Mat3 rotation_from_z(const Vec3& a) {
 }
 
 // Adds mid-edge nodes that follow the rings.
-void make_quadratic_round(TetMesh& mesh, const RoundPlane& plane) {
+void make_quadratic_round(Mesh& mesh, const RoundPlane& plane) {
   const int per_layer = static_cast<int>(plane.mesh.nodes.size());
   make_quadratic(mesh, [&](int a, int b) {
     const auto [x, y] = plane.middle(a % per_layer, b % per_layer);
@@ -203,16 +203,16 @@ void make_quadratic_round(TetMesh& mesh, const RoundPlane& plane) {
 }
 
 // Extrudes the cross section, names the surfaces, adds mid-edge nodes for order 2 and places the body.
-TetMesh finish(const RoundPlane& plane, const RoundMesh& round) {
+Mesh finish(const RoundPlane& plane, const RoundMesh& round) {
   const Vec3 &origin = round.origin, &axis = round.axis;
   require(axis.allFinite() && axis.norm() > 0, "the axis is zero or not finite; give a direction");
   require(origin.allFinite(), "the origin is not finite");
-  TetMesh mesh = extrude(plane.mesh, round.length, round.cells.along);
+  Mesh mesh = extrude(plane.mesh, round.length, round.cells.along);
   const int per_layer = static_cast<int>(plane.mesh.nodes.size());
   std::vector<char> side(plane.mesh.nodes.size(), 0);
   for (const int n : plane.outer) side[static_cast<std::size_t>(n)] = 'o';
   for (const int n : plane.inner) side[static_cast<std::size_t>(n)] = 'i';
-  for (const Triangle& t : boundary_triangles(mesh)) {
+  for (const FaceCorners& t : boundary_faces(mesh)) {
     const auto layer = [&](std::size_t k) { return t[k] / per_layer; };
     if (layer(0) == layer(1) && layer(1) == layer(2)) {
       mesh.surfaces[layer(0) == 0 ? "end0" : "end1"].push_back(t);
@@ -232,7 +232,7 @@ TetMesh finish(const RoundPlane& plane, const RoundMesh& round) {
 
 }  // namespace
 
-TetMesh make_cylinder(const CylinderMesh& cylinder) {
+Mesh make_cylinder(const CylinderMesh& cylinder) {
   check_size(cylinder.radius, "radius");
   check_size(cylinder.length, "length");
   check_cells(cylinder.cells, true);
@@ -254,7 +254,7 @@ TetMesh make_cylinder(const CylinderMesh& cylinder) {
   return finish(plane, cylinder);
 }
 
-TetMesh make_tube(const TubeMesh& tube) {
+Mesh make_tube(const TubeMesh& tube) {
   check_size(tube.inner_radius, "inner radius");
   check_size(tube.radius, "radius");
   check_size(tube.length, "length");

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/core/types.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -34,7 +34,7 @@ struct TubeMesh : RoundMesh {
 // follow the rings. Throw ConfigError (without place) for sizes that are not positive and finite, counts below 1,
 // `around` below 3 or, for the cylinder, not a multiple of 4, a grading outside [0.01, 100], a zero axis, and more
 // nodes or tets than an int can count.
-TetMesh make_cylinder(const CylinderMesh& cylinder);
-TetMesh make_tube(const TubeMesh& tube);
+Mesh make_cylinder(const CylinderMesh& cylinder);
+Mesh make_tube(const TubeMesh& tube);
 
 }  // namespace orthodyn

@@ -5,9 +5,10 @@
 
 namespace orthodyn {
 
-TetMesh extrude(const PlaneMesh& plane, double length, int layers) {
+Mesh extrude(const PlaneMesh& plane, double length, int layers) {
   const int per_layer = static_cast<int>(plane.nodes.size());
-  TetMesh mesh;
+  Mesh mesh;
+  std::vector<Tet> tets;
   for (int layer = 0; layer <= layers; ++layer)
     for (const auto& [x, y] : plane.nodes) mesh.nodes.push_back({x, y, length * layer / layers});
   for (int layer = 0; layer < layers; ++layer) {
@@ -20,11 +21,12 @@ TetMesh extrude(const PlaneMesh& plane, double length, int layers) {
       for (Tet tet : {Tet{bottom + a, bottom + b, bottom + c, top + c}, Tet{bottom + a, bottom + b, top + b, top + c},
                       Tet{bottom + a, top + a, top + b, top + c}}) {
         if (signed_volume6(mesh, tet) < 0) std::swap(tet[2], tet[3]);
-        mesh.tets.push_back(tet);
+        tets.push_back(tet);
       }
     }
   }
-  mesh.region_of.assign(mesh.tets.size(), 0);
+  mesh.cells = Cells(tets);
+  mesh.region_of.assign(tets.size(), 0);
   mesh.region_names = {"body"};
   return mesh;
 }

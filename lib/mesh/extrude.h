@@ -4,9 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
+
+using Triangle = std::array<int, 3>;  // node indices
 
 struct PlaneMesh {
   std::vector<std::array<double, 2>> nodes;  // m
@@ -16,6 +18,6 @@ struct PlaneMesh {
 // Nodes are numbered layer by layer. The diagonal of a side face starts at the node with the lower number in the plane,
 // so that neighbours match. The split is mirrored from layer to layer, so that no sense of rotation is preferred.
 // `length` in m. The mesh has one region "body" and no surfaces.
-TetMesh extrude(const PlaneMesh& plane, double length, int layers);
+Mesh extrude(const PlaneMesh& plane, double length, int layers);
 
 }  // namespace orthodyn

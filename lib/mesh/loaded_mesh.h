@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -45,8 +45,16 @@ struct CellData {
   std::vector<double> values = {};
 };
 
+// What becomes of the hexahedra and wedges of a file. Pyramids, and elements that collapse to fewer corners, are always
+// split, and with them all elements of the file, so that faces match.
+enum class FileCells {
+  keep_quadratic,  // quadratic ones stay as they are; linear ones, which have no element, are split into tetrahedra
+  keep,            // linear ones stay, too: the mesh will be made quadratic
+  split,           // into tetrahedra
+};
+
 struct LoadedMesh {
-  TetMesh mesh = {};
+  Mesh mesh = {};
   Warnings warnings = {};
   std::map<std::string, MeshMaterial> materials = {};  // by region; may be missing for some
   std::vector<CellData> cell_data = {};

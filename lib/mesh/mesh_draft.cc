@@ -12,6 +12,7 @@
 #include "lib/mesh/node_numbers.h"
 #include "lib/mesh/split_cells.h"
 #include "lib/mesh/split_middles.h"
+#include "lib/mesh/whole_cells.h"
 
 namespace orthodyn {
 namespace {
@@ -94,18 +95,37 @@ void check_diagonals(const MeshDraft& draft) {
     }
 }
 
-void add_cells(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh) {
+// Tetrahedra, with their mid-edge nodes in a quadratic mesh.
+struct Tets {
+  std::vector<Tet> corners = {};
+  std::vector<Midsides> middles = {};
+
+  Cells cells() const {
+    if (middles.empty()) return Cells(corners);
+    Cells out;
+    out.reserve(corners.size(), 10);
+    std::array<int, 10> nodes{};
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+      std::copy(corners[t].begin(), corners[t].end(), nodes.begin());
+      std::copy(middles[t].begin(), middles[t].end(), nodes.begin() + 4);
+      out.add(CellShape::tet10, nodes);
+    }
+    return out;
+  }
+};
+
+void add_tets(const MeshDraft& draft, const NodeNumbers& number, Mesh& mesh, Tets& tets) {
   std::array<int, 8> nodes{};
   for (std::size_t c = 0; c < draft.cells.size(); ++c) {
     const FileCell& cell = draft.cells[c];
     number_into(nodes, draft, number, cell, cell.corners());
-    if (!append_tets(cell.kind, {nodes.data(), corners_of(cell.kind)}, mesh.tets))
+    if (!append_tets(cell.kind, {nodes.data(), corners_of(cell.kind)}, tets.corners))
       draft.fail(cell.place,
                  "element {}: a {} with repeated nodes that cannot be split into tetrahedra; nodes may be repeated "
                  "along edges only: remesh",
                  cell.tag, name_of(cell.kind));
-    mesh.region_of.resize(mesh.tets.size(), cell.region);
-    mesh.cell_of.resize(mesh.tets.size(), static_cast<int>(c));
+    mesh.region_of.resize(tets.corners.size(), cell.region);
+    mesh.cell_of.resize(tets.corners.size(), static_cast<int>(c));
   }
 }
 
@@ -122,12 +142,12 @@ std::vector<EdgeMiddle> edges_of(const MeshDraft& draft, const NodeNumbers& numb
 }
 
 // Edges of all elements come before diagonals: a diagonal that is an edge of a tet has its node already.
-void add_midsides(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh) {
+void add_midsides(const MeshDraft& draft, const NodeNumbers& number, Mesh& mesh, Tets& tets) {
   const bool all_tets = std::all_of(draft.cells.begin(), draft.cells.end(),
                                     [](const FileCell& cell) { return cell.kind == CellKind::tet; });
   if (all_tets) {
     for (const FileCell& cell : draft.cells)
-      if (cell.midsides) number_into(mesh.midsides.emplace_back(), draft, number, cell, *cell.midsides);
+      if (cell.midsides) number_into(tets.middles.emplace_back(), draft, number, cell, *cell.midsides);
     return;
   }
   if (!draft.cells.front().is_quadratic()) return;
@@ -138,26 +158,46 @@ void add_midsides(const MeshDraft& draft, const NodeNumbers& number, TetMesh& me
     number_into(nodes, draft, number, cell, cell.corners());
     middles.add_diagonals(cell.kind, {nodes.data(), corners_of(cell.kind)});
   }
-  for (const Tet& tet : mesh.tets) mesh.midsides.push_back(middles.of(tet));
+  for (const Tet& tet : tets.corners) tets.middles.push_back(middles.of(tet));
   middles.complete_node_sets();
 }
 
-TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
-  const NodeNumbers number(draft.nodes);
-  TetMesh mesh;
-  mesh.region_names = draft.region_names;
-  for (const FileNode& node : draft.nodes) mesh.nodes.push_back(node.x);
-  add_cells(draft, number, mesh);
+void add_whole_cells(const MeshDraft& draft, const NodeNumbers& number, Mesh& mesh) {
+  std::array<int, 27> nodes{};
+  for (const FileCell& cell : draft.cells) {
+    const WholeCell whole = whole_cell(cell);
+    number_into(nodes, draft, number, cell, whole.nodes);
+    mesh.cell_of.push_back(static_cast<int>(mesh.cells.size()));
+    mesh.cells.add(whole.shape, std::span(nodes).first(whole.nodes.size()));
+    mesh.region_of.push_back(cell.region);
+  }
+}
+
+void add_surfaces(const MeshDraft& draft, const NodeNumbers& number, bool keep, Mesh& mesh, FaceOrigins& face_origins) {
   for (const auto& [name, faces] : draft.surfaces) {
     auto& surface = mesh.surfaces[name];
     auto& face_of = face_origins[name];
     std::array<int, 4> nodes{};
     for (std::size_t f = 0; f < faces.size(); ++f) {
       number_into(nodes, draft, number, faces[f], faces[f].corners());
-      append_triangles({nodes.data(), faces[f].sides}, surface);
+      const auto corners = std::span(nodes).first(faces[f].sides);
+      if (keep) surface.emplace_back(corners);
+      else append_triangles(corners, surface);
       face_of.resize(surface.size(), f);
     }
   }
+}
+
+// `keep`: elements stay as they are; otherwise all become tetrahedra.
+Mesh number_nodes(const MeshDraft& draft, bool keep, FaceOrigins& face_origins) {
+  const NodeNumbers number(draft.nodes);
+  Mesh mesh;
+  mesh.region_names = draft.region_names;
+  for (const FileNode& node : draft.nodes) mesh.nodes.push_back(node.x);
+  Tets tets;
+  if (keep) add_whole_cells(draft, number, mesh);
+  else add_tets(draft, number, mesh, tets);
+  add_surfaces(draft, number, keep, mesh, face_origins);
   for (const auto& [name, uses] : draft.node_sets) {
     auto& set = mesh.node_sets[name];
     for (const FileNodeUse& use : uses) {
@@ -166,51 +206,55 @@ TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
         draft.fail(use.place, "node set \"{}\": node {} is not defined in {}", name, use.tag, draft.nodes_section);
     }
   }
-  add_midsides(draft, number, mesh);
+  if (keep) return mesh;
+  add_midsides(draft, number, mesh, tets);
+  mesh.cells = tets.cells();
   return mesh;
 }
 
-// Reverses the orientation of the elements whose tets are all inverted; returns these elements.
-std::vector<std::size_t> reorient_inverted(TetMesh& mesh) {
+// A volume with the sign of the cell's orientation: for a tet that of its corners, whatever its mid-edge nodes.
+double corner_volume(const Mesh& mesh, std::size_t cell) {
+  const auto corners = mesh.cells.corners(cell);
+  if (corners.size() > 4) return cell_volume(mesh, cell);
+  return signed_volume6(mesh, {corners[0], corners[1], corners[2], corners[3]});
+}
+
+// Reverses the orientation of the elements whose cells are all inverted; returns these elements.
+std::vector<std::size_t> reorient_inverted(Mesh& mesh) {
   std::vector<std::size_t> turned;
-  for (std::size_t begin = 0, end = 0; begin < mesh.tets.size(); begin = end) {
+  for (std::size_t begin = 0, end = 0; begin < mesh.cells.size(); begin = end) {
     bool all = true;
-    for (end = begin; end < mesh.tets.size() && mesh.cell_of[end] == mesh.cell_of[begin]; ++end)
-      all = all && signed_volume6(mesh, mesh.tets[end]) < 0;
+    for (end = begin; end < mesh.cells.size() && mesh.cell_of[end] == mesh.cell_of[begin]; ++end)
+      all = all && corner_volume(mesh, end) < 0;
     if (!all) continue;
     turned.push_back(static_cast<std::size_t>(mesh.cell_of[begin]));
-    for (std::size_t t = begin; t < end; ++t) {
-      std::swap(mesh.tets[t][2], mesh.tets[t][3]);
-      if (mesh.midsides.empty()) continue;
-      std::swap(mesh.midsides[t][1], mesh.midsides[t][4]);
-      std::swap(mesh.midsides[t][2], mesh.midsides[t][3]);
-    }
+    for (std::size_t c = begin; c < end; ++c) turn_cell(mesh.cells.shape(c), mesh.cells.nodes_of(c));
   }
   return turned;
 }
 
 // "element 7", or "element 7, tetrahedron 2 of 6 of a hexahedron".
-std::string tet_name_of(const MeshDraft& draft, const TetMesh& mesh, int tet) {
+std::string tet_name_of(const MeshDraft& draft, const Mesh& mesh, int tet) {
   const auto t = static_cast<std::size_t>(tet);
   const FileCell& cell = draft.cells[static_cast<std::size_t>(mesh.cell_of[t])];
   const std::string name = fmt::format("{}: element {}", draft.where(cell.place), cell.tag);
-  if (cell.kind == CellKind::tet) return name;
   const auto [begin, end] = std::equal_range(mesh.cell_of.begin(), mesh.cell_of.end(), mesh.cell_of[t]);
+  if (cell.kind == CellKind::tet || end == begin + 1) return name;
   return fmt::format("{}, tetrahedron {} of {} of a {}", name, mesh.cell_of.begin() + tet - begin + 1, end - begin,
                      name_of(cell.kind));
 }
 
-MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrigins& face_origins) {
+MeshOrigin origin_of(const MeshDraft& draft, const Mesh& mesh, const FaceOrigins& face_origins) {
   return {
       .source = draft.files.front(),
-      .tet_name = [&](int t) { return tet_name_of(draft, mesh, t); },
+      .cell_name = [&](int t) { return tet_name_of(draft, mesh, t); },
       .node_name = [&draft](int n) -> std::string {
         if (static_cast<std::size_t>(n) >= draft.nodes.size())
           return draft.files.front() + ": a node added when an element was split";
         const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
         return fmt::format("{}: node {}", draft.where(node.place), node.tag);
       },
-      .triangle_name =
+      .face_name =
           [&](const std::string& surface, int k) {
             const std::size_t f = face_origins.at(surface)[static_cast<std::size_t>(k)];
             const FileFace& face = draft.surfaces.at(surface)[f];
@@ -250,17 +294,18 @@ std::string MeshDraft::where(FilePlace place) const {
   return place.line > 0 ? fmt::format("{}:{}", file, place.line) : file;
 }
 
-LoadedMesh build_mesh(MeshDraft draft) {
+LoadedMesh build_mesh(MeshDraft draft, FileCells cells) {
   sort_by_tag(draft);
   check_order(draft);
-  check_diagonals(draft);
+  const bool keep = can_keep_cells(draft, cells);
+  if (!keep) check_diagonals(draft);
   FaceOrigins face_origins;
-  LoadedMesh loaded{.mesh = number_nodes(draft, face_origins), .warnings = std::move(draft.warnings)};
+  LoadedMesh loaded{.mesh = number_nodes(draft, keep, face_origins), .warnings = std::move(draft.warnings)};
   const auto warn = [&](std::string warning) {
     if (!warning.empty()) loaded.warnings.push_back(std::move(warning));
   };
   warn(inverted_warning(draft, reorient_inverted(loaded.mesh)));
-  const std::string split = split_warning(draft, loaded.mesh.tets.size());
+  const std::string split = keep ? "" : split_warning(draft, loaded.mesh.cells.size());
   warn(split);
   const Warnings found = validate(loaded.mesh, origin_of(draft, loaded.mesh, face_origins));
   if (!split.empty()) warn(volume_warning(draft, loaded.mesh));

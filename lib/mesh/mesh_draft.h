@@ -1,4 +1,4 @@
-// The content of a mesh file before it becomes a TetMesh: tags of the file instead of indices, each with its place. The
+// The content of a mesh file before it becomes a Mesh: tags of the file instead of indices, each with its place. The
 // readers of all formats fill it.
 #pragma once
 
@@ -108,10 +108,11 @@ struct MeshDraft {
 };
 
 // Numbers nodes by ascending tag; elements keep their order. Splits hexahedra, wedges and pyramids into tetrahedra
-// (split_cells.h), quadratic ones into quadratic tetrahedra of the same curved shape (split_middles.h). Reorients
-// elements that are inverted as a whole. Warns of split and of reoriented elements, and if splitting changes the
-// volume. Throws ConfigError for undefined tags, tags that are defined twice, a mesh without elements, linear beside
-// quadratic elements, a tet on a quadrilateral that does not match its diagonal, and a mesh that validate() refuses.
-LoadedMesh build_mesh(MeshDraft draft);
+// (split_cells.h), quadratic ones into quadratic tetrahedra of the same curved shape (split_middles.h), or keeps them
+// (FileCells, whole_cells.h). Reorients elements that are inverted as a whole. Warns of split and of reoriented
+// elements, and if splitting changes the volume. Throws ConfigError for undefined tags, tags that are defined twice, a
+// mesh without elements, linear beside quadratic elements, a tet on a quadrilateral that does not match its diagonal,
+// and a mesh that validate() refuses.
+LoadedMesh build_mesh(MeshDraft draft, FileCells cells = FileCells::keep_quadratic);
 
 }  // namespace orthodyn

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "lib/core/spelling.h"
-#include "lib/element/tet10.h"
 #include "lib/mesh/cell_volume.h"
 #include "lib/mesh/node_numbers.h"
 #include "lib/mesh/quadratic.h"
@@ -12,19 +11,9 @@
 namespace orthodyn {
 namespace {
 
-double volume_of_tets(const TetMesh& mesh) {
+double volume_of(const Mesh& mesh) {
   double sum = 0;
-  const Cells cells = tet_cells(mesh);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (mesh.order() == 1) {
-      sum += signed_volume6(mesh, mesh.tets[c]) / 6;
-      continue;
-    }
-    ElementNodes<10> X;
-    for (std::size_t a = 0; a < 10; ++a)
-      X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(cells[c][a])];
-    sum += Tet10::mass(X, 1);
-  }
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) sum += cell_volume(mesh, c);
   return sum;
 }
 
@@ -42,7 +31,7 @@ std::string inverted_warning(const MeshDraft& draft, const std::vector<std::size
       draft.where(first.place), inverted.size(), all, first.tag);
 }
 
-std::string volume_warning(const MeshDraft& draft, const TetMesh& mesh) {
+std::string volume_warning(const MeshDraft& draft, const Mesh& mesh) {
   constexpr double kTolerance = 1e-3;
   const NodeNumbers number(draft.nodes);
   const auto position = [&](std::int64_t tag) -> const Vec3& {
@@ -50,7 +39,7 @@ std::string volume_warning(const MeshDraft& draft, const TetMesh& mesh) {
   };
   double before = 0;
   for (const FileCell& cell : draft.cells) before += std::abs(volume_of(cell, position));
-  const double after = volume_of_tets(mesh);
+  const double after = volume_of(mesh);
   if (!(std::abs(after - before) > kTolerance * before)) return "";
   return fmt::format(
       "{}: the elements have a volume of {:.6g} by their shape functions, the tetrahedra that replace them {:.6g} "

@@ -12,6 +12,6 @@ std::string inverted_warning(const MeshDraft& draft, const std::vector<std::size
 std::string split_warning(const MeshDraft& draft, std::size_t tets);
 
 // Warns if the volume of the tets differs from that of the cells by more than 0.1 %.
-std::string volume_warning(const MeshDraft& draft, const TetMesh& mesh);
+std::string volume_warning(const MeshDraft& draft, const Mesh& mesh);
 
 }  // namespace orthodyn

@@ -1,8 +1,10 @@
 #include "lib/mesh/mesh_point.h"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 
-#include "lib/element/tet10.h"
+#include "lib/mesh/element_of_shape.h"
 
 namespace orthodyn {
 
@@ -10,50 +12,107 @@ namespace {
 
 using Barycentric = Tet10::Barycentric;
 
-Barycentric barycentric(const TetMesh& mesh, const Tet& tet, const Vec3& place) {
-  const auto corner = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(tet[i])]; };
+Barycentric barycentric(const Mesh& mesh, std::span<const int> corners, const Vec3& place) {
   Mat3 edges;
-  for (std::size_t i = 1; i < 4; ++i) edges.col(static_cast<Eigen::Index>(i) - 1) = corner(i) - corner(0);
-  const Vec3 L = edges.inverse() * (place - corner(0));
+  for (std::size_t i = 1; i < 4; ++i)
+    edges.col(static_cast<Eigen::Index>(i) - 1) = mesh.node(corners[i]) - mesh.node(corners[0]);
+  const Vec3 L = edges.inverse() * (place - mesh.node(corners[0]));
   return {1 - L.sum(), L[0], L[1], L[2]};
 }
 
-// Barycentric coordinates of a nearby point within the element.
+// Coordinates of a nearby point within the element.
 Barycentric clamped(const Barycentric& L) {
   const Barycentric inside = L.cwiseMax(0);
   return inside / inside.sum();
 }
+template <class E>
+Vec3 clamped(const Vec3& x) {
+  if constexpr (E::kNodes >= 20) {
+    return x.cwiseMax(-1).cwiseMin(1);
+  } else {
+    Vec3 inside(std::max(x[0], 0.0), std::max(x[1], 0.0), std::clamp(x[2], -1.0, 1.0));
+    if (const double sum = inside[0] + inside[1]; sum > 1) inside.head<2>() /= sum;
+    return inside;
+  }
+}
 
-double distance_outside(const TetMesh& mesh, const Tet& tet, const Vec3& place, const Barycentric& L) {
-  if (L.minCoeff() >= 0) return 0;
-  const Barycentric inside = clamped(L);
-  Vec3 nearest = Vec3::Zero();
-  for (std::size_t i = 0; i < 4; ++i)
-    nearest += inside[static_cast<Eigen::Index>(i)] * mesh.nodes[static_cast<std::size_t>(tet[i])];
-  return (nearest - place).norm();
+// Newton's method, started at the centre of the element. Steps are limited, because the map may fold far outside.
+template <class E>
+Vec3 natural(const ElementNodes<E::kNodes>& X, const Vec3& place) {
+  constexpr int kSteps = 20;
+  constexpr double kFar = 2, kConverged = 1e-14;
+  Vec3 x = E::kNodes >= 20 ? Vec3(0, 0, 0) : Vec3(1.0 / 3, 1.0 / 3, 0);
+  const NodeDifferences<E::kNodes> rest = differences<E::kNodes>(X);
+  for (int k = 0; k < kSteps; ++k) {
+    const Vec3 step = E::jacobian(rest, x).inverse() * (place - X * E::shape(x));
+    if (!step.allFinite()) break;
+    x = (x + step).cwiseMax(-kFar).cwiseMin(kFar);
+    if (step.lpNorm<Eigen::Infinity>() < kConverged) break;
+  }
+  return x;
+}
+
+struct Found {
+  double distance;              // of the place from the element, m
+  std::vector<double> weights;  // of the element's nodes
+};
+
+template <class Weights>
+std::vector<double> as_list(const Weights& N) {
+  return {N.data(), N.data() + N.size()};
+}
+
+Found in_tet(const Mesh& mesh, std::size_t cell, const Vec3& place) {
+  const auto corners = mesh.cells.corners(cell);
+  const Barycentric L = barycentric(mesh, corners, place), inside = clamped(L);
+  Found found{0, {}};
+  if (L.minCoeff() < 0) {
+    Vec3 nearest = Vec3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) nearest += inside[static_cast<Eigen::Index>(i)] * mesh.node(corners[i]);
+    found.distance = (nearest - place).norm();
+  }
+  found.weights = mesh.order() == 1 ? as_list(inside) : as_list(Tet10::shape(inside));
+  return found;
+}
+
+// Distance of a place from the box around a cell's nodes, m.
+double distance_from_box(const Mesh& mesh, std::span<const int> nodes, const Vec3& place) {
+  Vec3 low = mesh.node(nodes[0]), high = low;
+  for (const int n : nodes) {
+    low = low.cwiseMin(mesh.node(n));
+    high = high.cwiseMax(mesh.node(n));
+  }
+  return (place - place.cwiseMax(low).cwiseMin(high)).norm();
+}
+
+Found in_cell(const Mesh& mesh, std::size_t cell, const Vec3& place) {
+  Found found{std::numeric_limits<double>::infinity(), {}};
+  with_element(mesh.cells.shape(cell), [&]<class E>() {
+    if constexpr (E::kNodes > 10) {
+      const auto X = positions<E>(mesh, cell);
+      const Vec3 x = natural<E>(X, place), inside = clamped<E>(x);
+      const auto N = E::shape(inside);
+      found = {(X * N - place).norm(), as_list(N)};
+    } else {
+      found = in_tet(mesh, cell, place);
+    }
+  });
+  return found;
 }
 
 }  // namespace
 
-MeshPoint mesh_point(const TetMesh& mesh, const Vec3& place) {
+MeshPoint mesh_point(const Mesh& mesh, const Vec3& place) {
   std::size_t best = 0;
-  Barycentric best_L = barycentric(mesh, mesh.tets[0], place);
-  double best_distance = distance_outside(mesh, mesh.tets[0], place, best_L);
-  for (std::size_t t = 1; t < mesh.tets.size() && best_distance > 0; ++t) {
-    const Barycentric L = barycentric(mesh, mesh.tets[t], place);
-    const double distance = distance_outside(mesh, mesh.tets[t], place, L);
-    if (distance < best_distance) best = t, best_L = L, best_distance = distance;
+  Found nearest = in_cell(mesh, 0, place);
+  for (std::size_t c = 1; c < mesh.cells.size() && nearest.distance > 0; ++c) {
+    if (mesh.cells.corners(c).size() > 4 && distance_from_box(mesh, mesh.cells[c], place) >= nearest.distance) continue;
+    Found found = in_cell(mesh, c, place);
+    if (found.distance < nearest.distance) best = c, nearest = std::move(found);
   }
-  const Barycentric L = clamped(best_L);
   MeshPoint point;
-  if (mesh.order() == 1) {
-    for (std::size_t i = 0; i < 4; ++i) point.nodes.emplace_back(mesh.tets[best][i], L[static_cast<Eigen::Index>(i)]);
-    return point;
-  }
-  const Tet10::Values N = Tet10::shape(L);
-  for (std::size_t i = 0; i < 4; ++i) point.nodes.emplace_back(mesh.tets[best][i], N[static_cast<Eigen::Index>(i)]);
-  for (std::size_t e = 0; e < 6; ++e)
-    point.nodes.emplace_back(mesh.midsides[best][e], N[static_cast<Eigen::Index>(e) + 4]);
+  for (std::size_t a = 0; a < nearest.weights.size(); ++a)
+    point.nodes.emplace_back(mesh.cells[best][a], nearest.weights[a]);
   return point;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -14,6 +14,6 @@ struct MeshPoint {
 
 // The point at `place` (m) in the rest shape. Elements are located by their corners. For a place outside the body, a
 // nearby point on its surface.
-MeshPoint mesh_point(const TetMesh& mesh, const Vec3& place);
+MeshPoint mesh_point(const Mesh& mesh, const Vec3& place);
 
 }  // namespace orthodyn

@@ -5,7 +5,7 @@
 
 namespace orthodyn {
 
-NearNodes::NearNodes(const TetMesh& mesh) : mesh_(mesh), by_x_(mesh.nodes.size()) {
+NearNodes::NearNodes(const Mesh& mesh) : mesh_(mesh), by_x_(mesh.nodes.size()) {
   std::iota(by_x_.begin(), by_x_.end(), 0);
   std::stable_sort(by_x_.begin(), by_x_.end(), [&](int a, int b) {
     return mesh.nodes[static_cast<std::size_t>(a)][0] < mesh.nodes[static_cast<std::size_t>(b)][0];

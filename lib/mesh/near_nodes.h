@@ -4,20 +4,20 @@
 #include <optional>
 #include <vector>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
 // The mesh must outlive the object.
 class NearNodes {
  public:
-  explicit NearNodes(const TetMesh& mesh);
+  explicit NearNodes(const Mesh& mesh);
 
   // The node nearest to `point` (m) among those at most `distance` (m) away.
   std::optional<int> within(double distance, const Vec3& point) const;
 
  private:
-  const TetMesh& mesh_;
+  const Mesh& mesh_;
   std::vector<int> by_x_;  // all nodes by ascending x
 };
 

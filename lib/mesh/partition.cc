@@ -11,12 +11,12 @@ std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-CellGraph cell_graph(const std::vector<TetFace>& faces, std::size_t cells) {
+CellGraph cell_graph(const std::vector<MeshFace>& faces, std::size_t cells) {
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin))
     if (end_of_face(faces, begin) == begin + 2) {
-      pairs.emplace_back(faces[begin].tet, faces[begin + 1].tet);
-      pairs.emplace_back(faces[begin + 1].tet, faces[begin].tet);
+      pairs.emplace_back(faces[begin].cell, faces[begin + 1].cell);
+      pairs.emplace_back(faces[begin + 1].cell, faces[begin].cell);
     }
   std::sort(pairs.begin(), pairs.end());
   CellGraph graph{std::vector<int>(cells + 1, 0), {}};
@@ -45,11 +45,11 @@ const std::vector<int>& NodeRanks::of(std::size_t node) {
   return ranks_;
 }
 
-std::vector<PartSize> part_sizes(const TetMesh& mesh, const std::vector<int>& rank_of_cell, int parts) {
+std::vector<PartSize> part_sizes(const Mesh& mesh, const std::vector<int>& rank_of_cell, int parts) {
   std::vector<PartSize> sizes(as_index(parts));
   for (const int rank : rank_of_cell) ++sizes[as_index(rank)].cells;
   std::vector<std::pair<int, int>> exchanges;  // pairs of parts that share a node
-  NodeRanks ranks_of(tet_cells(mesh), rank_of_cell, mesh.nodes.size());
+  NodeRanks ranks_of(mesh.cells, rank_of_cell, mesh.nodes.size());
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     const std::vector<int>& ranks = ranks_of.of(node);
     const int owner = owner_of(node, ranks);

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "lib/core/ranks.h"
+#include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/mesh/tet_faces.h"
 
 namespace orthodyn {
 
 // Graph of cells, connected if they share a face. `faces`: sorted_faces() of all `cells`.
-CellGraph cell_graph(const std::vector<TetFace>& faces, std::size_t cells);
+CellGraph cell_graph(const std::vector<MeshFace>& faces, std::size_t cells);
 
 // For each node, the ranks of its cells, ascending.
 class NodeRanks {
@@ -40,6 +40,6 @@ struct PartSize {
 };
 
 // Precondition: 0 <= rank_of_cell[cell] < parts.
-std::vector<PartSize> part_sizes(const TetMesh& mesh, const std::vector<int>& rank_of_cell, int parts);
+std::vector<PartSize> part_sizes(const Mesh& mesh, const std::vector<int>& rank_of_cell, int parts);
 
 }  // namespace orthodyn

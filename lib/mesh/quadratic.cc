@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "lib/core/errors.h"
-#include "lib/element/tet10.h"
+#include "lib/mesh/element_of_shape.h"
 
 namespace orthodyn {
 
@@ -18,159 +19,301 @@ std::uint64_t edge_key(int a, int b) {
 
 namespace {
 
+// Of the diagonal through the smallest corner of a quadrilateral: the same for all its cells.
+std::uint64_t face_key(FaceCorners face) {
+  face.sort();
+  return edge_key(face[0], face[2]);
+}
+
+// The node of a cell that is the middle of these of its corners (indices in the cell).
+int node_at(std::span<const int> nodes, int place) { return nodes[static_cast<std::size_t>(place)]; }
+
+FaceCorners face_of(std::span<const int> nodes, const std::vector<int>& corners) {
+  return {node_at(nodes, corners[0]), node_at(nodes, corners[1]), node_at(nodes, corners[2]),
+          node_at(nodes, corners[3])};
+}
+
 // Adds the mid-edge nodes of surface edges whose ends are both in the set. Precondition: the set is sorted.
-void add_middles(const EdgeNodes& middles, const std::vector<Triangle>& surface, std::vector<int>& set) {
+void add_middles(const MiddleNodes& middles, const std::vector<FaceCorners>& surface, std::vector<int>& set) {
   std::vector<int> more;
   const auto has = [&](int node) { return std::binary_search(set.begin(), set.end(), node); };
-  for (const Triangle& t : surface)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (has(t[k]) && has(t[(k + 1) % 3])) more.push_back(middles.at(t[k], t[(k + 1) % 3]));
+  for (const FaceCorners& face : surface)
+    for (std::size_t k = 0; k < face.size(); ++k)
+      if (has(face[k]) && has(face.after(k))) more.push_back(middles.of_edge(face[k], face.after(k)));
   set.insert(set.end(), more.begin(), more.end());
   std::sort(set.begin(), set.end());
   set.erase(std::unique(set.begin(), set.end()), set.end());
 }
 
-constexpr double kFolded = 1e-6;  // relative to det dX/dL with straight edges
+constexpr double kFolded = 1e-6;  // smallest ratio of the Jacobian's determinant to its reference
 
-// A mid-edge node must belong to one edge only, and an edge must have the same mid-edge node in all its elements.
-void check_mid_edge_nodes(const TetMesh& mesh, const MeshOrigin& origin) {
+// A middle node must belong to one edge or face only, and an edge or face must have the same middle node in all its
+// elements.
+void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
   std::vector<char> corner(mesh.nodes.size(), 0);
-  for (const Tet& tet : mesh.tets)
-    for (int n : tet) corner[static_cast<std::size_t>(n)] = 1;
-  std::vector<std::pair<int, int>> edge_of(mesh.nodes.size(), {-1, -1});
-  const EdgeNodes middles(mesh);  // of the first element that has the edge
-  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
-    const auto i = static_cast<std::size_t>(t);
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const int middle = mesh.midsides[i][e], a = mesh.tets[i][kTetEdges[e][0]], b = mesh.tets[i][kTetEdges[e][1]];
-      const std::pair<int, int> edge = std::minmax(a, b);
-      auto& known = edge_of[static_cast<std::size_t>(middle)];
-      const bool elsewhere = known.first >= 0 && known != edge;
-      known = edge;
-      if (!corner[static_cast<std::size_t>(middle)] && !elsewhere && middles.at(a, b) == middle) continue;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const int n : mesh.cells.corners(c)) corner[static_cast<std::size_t>(n)] = 1;
+  using Pair = std::pair<int, int>;
+  std::vector<Pair> between(mesh.nodes.size(), {-1, -1});  // of a middle node: the ends of its edge or diagonal
+  const MiddleNodes middles(mesh);                         // of the first element that has the edge
+  for (int e = 0; e < static_cast<int>(mesh.cells.size()); ++e) {
+    const auto nodes = mesh.cells[static_cast<std::size_t>(e)];
+    const CellTopology& cell = topology(mesh.cells.shape(static_cast<std::size_t>(e)));
+    for (std::size_t m = 0; m < cell.middles.size(); ++m) {
+      const std::vector<int>& of = cell.middles[m];
+      const int middle = nodes[static_cast<std::size_t>(cell.corners) + m];
+      Pair ends{node_at(nodes, of[0]), node_at(nodes, of.back())};
+      int expected = middle;
+      if (of.size() == 2) {
+        expected = middles.of_edge(ends.first, ends.second);
+      } else if (of.size() == 4) {
+        FaceCorners face = face_of(nodes, of);
+        expected = *middles.of_face(face);
+        face.sort();
+        ends = {face[0], face[2]};
+      }
+      if (ends.first > ends.second) std::swap(ends.first, ends.second);
+      auto& known = between[static_cast<std::size_t>(middle)];
+      const bool elsewhere = known.first >= 0 && known != ends;
+      known = ends;
+      if (!corner[static_cast<std::size_t>(middle)] && !elsewhere && expected == middle) continue;
+      if (of.size() == 2)
+        throw ConfigError(
+            origin.cell(e),
+            fmt::format(
+                "{} is the mid-edge node between {} and {}, but another element uses it as a corner or on another "
+                "edge, or has another node on this edge; elements must share all nodes of a common edge: remesh",
+                origin.node(middle), origin.node(ends.first), origin.node(ends.second)));
       throw ConfigError(
-          origin.tet(t),
-          fmt::format(
-              "{} is the mid-edge node between {} and {}, but another element uses it as a corner or on another edge, "
-              "or has another node on this edge; elements must share all nodes of a common edge: remesh",
-              origin.node(middle), origin.node(a), origin.node(b)));
+          origin.cell(e),
+          fmt::format("{} is the node within a face or element, but another element uses it elsewhere, or "
+                      "has another node within this face; elements must share all nodes of a common "
+                      "face: remesh",
+                      origin.node(middle)));
     }
   }
 }
 
-// The map from barycentric coordinates must keep its orientation at all evaluation points. It is constant if all edges
-// are straight.
-void check_folding(const TetMesh& mesh, const MeshOrigin& origin) {
-  const Cells cells = tet_cells(mesh);
-  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
-    const auto nodes = cells[static_cast<std::size_t>(t)];
-    ElementNodes<Tet10::kNodes> X;
-    for (Eigen::Index a = 0; a < X.cols(); ++a)
-      X.col(a) = mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
-    const auto is_straight = [&](int e) {
-      const auto [i, j] = Tet10::kEdges[static_cast<std::size_t>(e)];
-      return (X.col(4 + e) - 0.5 * (X.col(i) + X.col(j))).norm() <= 1e-12 * (X.col(i) - X.col(j)).norm();
-    };
-    int straight_edges = 0;
-    for (int e = 0; e < 6; ++e) straight_edges += is_straight(e);
-    if (straight_edges == 6) continue;
-    const NodeDifferences<Tet10::kNodes> rest = differences<Tet10::kNodes>(X);
-    const double straight = signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(t)]);
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const auto& L : Tet10::checked_places())
-      smallest = std::min(smallest, Tet10::jacobian(rest, L).determinant() / straight);
+// Linear and 20-node faces may not meet 27-node ones: the middle node of the one would be free to leave the other.
+void check_face_middles(const Mesh& mesh, const MeshOrigin& origin) {
+  const auto has_centres = [](CellShape shape) { return shape == CellShape::hex27 || shape == CellShape::wedge18; };
+  const auto& shapes = mesh.cells.shapes();
+  if (std::none_of(shapes.begin(), shapes.end(), has_centres)) return;
+  const MiddleNodes middles(mesh);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    if (has_centres(shapes[e])) continue;
+    const CellTopology& cell = topology(shapes[e]);
+    for (std::size_t f = 0; f < cell.faces.size(); ++f)
+      if (cell.corners_of_face(f) == 4 && middles.of_face(face_of(mesh.cells[e], cell.faces[f])))
+        throw ConfigError(
+            origin.cell(static_cast<int>(e)),
+            "one of its quadrilaterals has no node in its middle, but the neighbour has one; use elements "
+            "with and without such nodes in separate meshes, or set `split: true`");
+  }
+}
+
+// The Jacobian of an element's map must keep its orientation at all evaluation points. It is constant in a tetrahedron
+// with straight edges.
+template <class E>
+double smallest_jacobian(const ElementNodes<E::kNodes>& X) {
+  const NodeDifferences<E::kNodes> rest = differences<E::kNodes>(X);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& place : E::checked_places()) smallest = std::min(smallest, E::jacobian(rest, place).determinant());
+  return smallest;
+}
+
+bool has_straight_edges(const ElementNodes<Tet10::kNodes>& X) {
+  for (int e = 0; e < 6; ++e) {
+    const auto [i, j] = Tet10::kEdges[static_cast<std::size_t>(e)];
+    if ((X.col(4 + e) - 0.5 * (X.col(i) + X.col(j))).norm() > 1e-12 * (X.col(i) - X.col(j)).norm()) return false;
+  }
+  return true;
+}
+
+void check_folding(const Mesh& mesh, const MeshOrigin& origin) {
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    double smallest = 1;
+    with_element(mesh.cells.shape(c), [&]<class E>() {
+      const auto X = positions<E>(mesh, c);
+      if constexpr (std::is_same_v<E, Tet10>) {
+        if (has_straight_edges(X)) return;
+        const auto corners = mesh.cells.corners(c);
+        smallest = smallest_jacobian<E>(X) / signed_volume6(mesh, {corners[0], corners[1], corners[2], corners[3]});
+      } else if constexpr (E::kDegree == 2) {
+        constexpr double kReferenceVolume = E::kNodes >= 20 ? 8 : 1;  // of the hexahedron, of the wedge
+        smallest = smallest_jacobian<E>(X) / (E::mass(X, 1) / kReferenceVolume);
+      }
+    });
     if (smallest > kFolded) continue;
+    const int cell = static_cast<int>(c);
+    if (mesh.cells.shape(c) == CellShape::tet10)
+      throw ConfigError(
+          origin.cell(cell),
+          fmt::format("its curved edges fold it over (det dX/dL is {:.3g} of that with straight edges); remesh finer, "
+                      "straighten it (Gmsh: Mesh.SecondOrderLinear = 1), or optimise it (Gmsh: Mesh.HighOrderOptimize)",
+                      smallest));
     throw ConfigError(
-        origin.tet(t),
-        fmt::format("its curved edges fold it over (det dX/dL is {:.3g} of that with straight edges); remesh finer, "
-                    "straighten it (Gmsh: Mesh.SecondOrderLinear = 1), or optimise it (Gmsh: Mesh.HighOrderOptimize)",
+        origin.cell(cell),
+        fmt::format("folded over: at one of its points the determinant of the Jacobian is {:.3g} of its mean; remesh, "
+                    "or set `split: true`, so that it becomes tetrahedra",
                     smallest));
   }
 }
 
 }  // namespace
 
-void validate_quadratic(const TetMesh& mesh, const MeshOrigin& origin) {
-  check_mid_edge_nodes(mesh, origin);
+void validate_quadratic(const Mesh& mesh, const MeshOrigin& origin) {
+  check_middle_nodes(mesh, origin);
+  check_face_middles(mesh, origin);
   check_folding(mesh, origin);
 }
 
-EdgeNodes::EdgeNodes(const TetMesh& mesh) {
-  nodes_.reserve(mesh.tets.size() + mesh.tets.size() / 2);  // a large mesh has about 1.2 edges a tet
-  for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
-      nodes_.emplace(edge_key(mesh.tets[t][kTetEdges[e][0]], mesh.tets[t][kTetEdges[e][1]]), mesh.midsides[t][e]);
+void MiddleNodes::add(const Mesh& mesh, std::size_t c) {
+  const auto nodes = mesh.cells[c];
+  const CellTopology& cell = topology(mesh.cells.shape(c));
+  for (std::size_t m = 0; m < cell.middles.size(); ++m) {
+    const std::vector<int>& of = cell.middles[m];
+    const int middle = nodes[static_cast<std::size_t>(cell.corners) + m];
+    if (of.size() == 2) edges_.emplace(edge_key(node_at(nodes, of[0]), node_at(nodes, of[1])), middle);
+    if (of.size() == 4) faces_.emplace(face_key(face_of(nodes, of)), middle);
+  }
 }
 
-EdgeNodes::EdgeNodes(const TetMesh& mesh, const std::vector<Triangle>& faces) {
+MiddleNodes::MiddleNodes(const Mesh& mesh) {
+  edges_.reserve(mesh.cells.size() + mesh.cells.size() / 2);  // a large mesh has about 1.2 edges a tet
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) add(mesh, c);
+}
+
+MiddleNodes::MiddleNodes(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
   std::vector<char> wanted(mesh.nodes.size(), 0);
-  for (const Triangle& t : faces)
-    for (const int n : t) wanted[static_cast<std::size_t>(n)] = 1;
-  for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const int a = mesh.tets[t][kTetEdges[e][0]], b = mesh.tets[t][kTetEdges[e][1]];
-      if (wanted[static_cast<std::size_t>(a)] && wanted[static_cast<std::size_t>(b)])
-        nodes_.emplace(edge_key(a, b), mesh.midsides[t][e]);
-    }
+  for (const FaceCorners& face : faces)
+    for (const int n : face) wanted[static_cast<std::size_t>(n)] = 1;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto corners = mesh.cells.corners(c);
+    if (std::count_if(corners.begin(), corners.end(), [&](int n) { return wanted[static_cast<std::size_t>(n)]; }) > 1)
+      add(mesh, c);
+  }
 }
 
-int EdgeNodes::at(int a, int b) const { return nodes_.at(edge_key(a, b)); }
+int MiddleNodes::of_edge(int a, int b) const { return edges_.at(edge_key(a, b)); }
 
-void make_quadratic(TetMesh& mesh, const MiddlePlace& place) {
+std::optional<int> MiddleNodes::of_face(const FaceCorners& face) const {
+  if (face.size() != 4) return std::nullopt;
+  const auto found = faces_.find(face_key(face));
+  return found == faces_.end() ? std::nullopt : std::optional(found->second);
+}
+
+namespace {
+
+CellShape quadratic_shape(CellShape linear) {
+  switch (linear) {
+    case CellShape::tet4: return CellShape::tet10;
+    case CellShape::wedge6: return CellShape::wedge15;
+    case CellShape::hex8: return CellShape::hex20;
+    default: return linear;
+  }
+}
+
+CellShape linear_shape(CellShape quadratic) {
+  switch (topology(quadratic).corners) {
+    case 4: return CellShape::tet4;
+    case 6: return CellShape::wedge6;
+    default: return CellShape::hex8;
+  }
+}
+
+}  // namespace
+
+void make_quadratic(Mesh& mesh, const MiddlePlace& place) {
   std::unordered_map<std::uint64_t, int> middles;
   const auto middle = [&](int a, int b) {
     const auto [entry, is_new] = middles.try_emplace(edge_key(a, b), static_cast<int>(mesh.nodes.size()));
-    if (is_new) {
-      const auto at = [&](int n) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(n)]; };
-      mesh.nodes.push_back(place ? place(a, b) : Vec3(0.5 * (at(a) + at(b))));
-    }
+    if (is_new) mesh.nodes.push_back(place ? place(a, b) : Vec3(0.5 * (mesh.node(a) + mesh.node(b))));
     return entry->second;
   };
-  mesh.midsides.resize(mesh.tets.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
-      mesh.midsides[t][e] = middle(mesh.tets[t][kTetEdges[e][0]], mesh.tets[t][kTetEdges[e][1]]);
+  Cells cells;
+  std::vector<int> nodes;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const CellShape shape = quadratic_shape(mesh.cells.shape(c));
+    nodes.assign(mesh.cells[c].begin(), mesh.cells[c].end());
+    for (const std::vector<int>& edge : topology(shape).middles)
+      nodes.push_back(middle(node_at(mesh.cells[c], edge[0]), node_at(mesh.cells[c], edge[1])));
+    cells.add(shape, nodes);
+  }
+  mesh.cells = std::move(cells);
   if (mesh.node_sets.empty()) return;
-  const EdgeNodes all(mesh);
-  const auto surface = boundary_triangles(mesh);
+  const MiddleNodes all(mesh);
+  const auto surface = boundary_faces(mesh);
   for (auto& [name, set] : mesh.node_sets) add_middles(all, surface, set);
 }
 
-std::vector<std::string> make_linear(TetMesh& mesh) {
+std::vector<std::string> make_linear(Mesh& mesh) {
   std::vector<char> is_middle(mesh.nodes.size(), 0);
-  for (const Midsides& middles : mesh.midsides)
-    for (const int n : middles) is_middle[static_cast<std::size_t>(n)] = 1;
+  Cells cells;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto corners = mesh.cells.corners(c);
+    for (const int n : mesh.cells[c].subspan(corners.size())) is_middle[static_cast<std::size_t>(n)] = 1;
+    cells.add(linear_shape(mesh.cells.shape(c)), corners);
+  }
   std::vector<std::string> emptied;
   for (const auto& [name, set] : mesh.node_sets)
     if (!set.empty() &&
         std::all_of(set.begin(), set.end(), [&](int n) { return is_middle[static_cast<std::size_t>(n)]; }))
       emptied.push_back(name);
-  mesh.midsides.clear();
+  mesh.cells = std::move(cells);
   remove_nodes(mesh, is_middle);
   return emptied;
 }
 
-Cells tet_cells(const TetMesh& mesh) {
-  if (mesh.order() == 1) return Cells(mesh.tets);
+void add_centres(Mesh& mesh) {
+  std::map<FaceCorners, int> faces;
+  Cells cells;
   std::vector<int> nodes;
-  nodes.reserve(10 * mesh.tets.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    nodes.insert(nodes.end(), mesh.tets[t].begin(), mesh.tets[t].end());
-    nodes.insert(nodes.end(), mesh.midsides[t].begin(), mesh.midsides[t].end());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    nodes.assign(mesh.cells[c].begin(), mesh.cells[c].end());
+    CellShape shape = mesh.cells.shape(c);
+    const auto add = [&]<class E, class Full>() {
+      const ElementNodes<E::kNodes> X = positions<E>(mesh, c);
+      const CellTopology& full = topology(Full::kShape);
+      for (std::size_t k = nodes.size(); k < Full::kNodes; ++k) {
+        const std::vector<int>& of = full.middles[k - static_cast<std::size_t>(full.corners)];
+        int node = static_cast<int>(mesh.nodes.size());
+        if (of.size() == 4) {
+          FaceCorners face(nodes[static_cast<std::size_t>(of[0])], nodes[static_cast<std::size_t>(of[1])],
+                           nodes[static_cast<std::size_t>(of[2])], nodes[static_cast<std::size_t>(of[3])]);
+          face.sort();
+          node = faces.try_emplace(face, node).first->second;
+        }
+        if (node == static_cast<int>(mesh.nodes.size()))
+          mesh.nodes.push_back(X * E::shape(Full::nodes().col(static_cast<Eigen::Index>(k))));
+        nodes.push_back(node);
+      }
+      shape = Full::kShape;
+    };
+    if (shape == CellShape::hex20) add.template operator()<Hex20, Hex27>();
+    if (shape == CellShape::wedge15) add.template operator()<Wedge15, Wedge18>();
+    cells.add(shape, nodes);
   }
-  return {10, std::move(nodes)};
+  mesh.cells = std::move(cells);
 }
 
-Cells face_cells(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
-  if (mesh.order() == 1) return Cells(triangles);
-  const EdgeNodes middles(mesh, triangles);
-  std::vector<int> nodes;
-  nodes.reserve(6 * triangles.size());
-  for (const Triangle& t : triangles) {
-    nodes.insert(nodes.end(), t.begin(), t.end());
-    for (std::size_t k = 0; k < 3; ++k) nodes.push_back(middles.at(t[k], t[(k + 1) % 3]));
+Cells face_cells(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
+  Cells out;
+  if (mesh.order() == 1) {
+    for (const FaceCorners& face : faces)
+      out.add(face.size() == 3 ? CellShape::tri3 : CellShape::quad4, {face.begin(), face.end()});
+    return out;
   }
-  return {6, std::move(nodes)};
+  const MiddleNodes middles(mesh, faces);
+  std::vector<int> nodes;
+  for (const FaceCorners& face : faces) {
+    nodes.assign(face.begin(), face.end());
+    for (std::size_t k = 0; k < face.size(); ++k) nodes.push_back(middles.of_edge(face[k], face.after(k)));
+    const std::optional<int> centre = middles.of_face(face);
+    if (centre) nodes.push_back(*centre);
+    out.add(face.size() == 3 ? CellShape::tri6 : centre ? CellShape::quad9 : CellShape::quad8, nodes);
+  }
+  return out;
 }
 
 }  // namespace orthodyn

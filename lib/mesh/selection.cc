@@ -52,20 +52,20 @@ namespace {
 }
 
 template <class Predicate>
-std::set<int> nodes_where(const TetMesh& mesh, Predicate&& inside) {
+std::set<int> nodes_where(const Mesh& mesh, Predicate&& inside) {
   std::set<int> out;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     if (inside(mesh.nodes[i])) out.insert(static_cast<int>(i));
   return out;
 }
 
-std::set<int> node_set(const TetMesh& mesh, const std::string& name, const SourceLocation& origin) {
+std::set<int> node_set(const Mesh& mesh, const std::string& name, const SourceLocation& origin) {
   const auto it = mesh.node_sets.find(name);
   if (it != mesh.node_sets.end()) return {it->second.begin(), it->second.end()};
   fail_unknown(origin, "node set", name, mesh.node_sets, "a .bou file, *NSET, physical points");
 }
 
-std::set<int> select(const Selection& selection, const TetMesh& mesh) {
+std::set<int> select(const Selection& selection, const Mesh& mesh) {
   if (selection.nodes) return node_set(mesh, *selection.nodes, selection.origin);
   if (selection.nearest) return {nearest_node(mesh, *selection.nearest)};
   if (selection.surface) {
@@ -79,31 +79,31 @@ std::set<int> select(const Selection& selection, const TetMesh& mesh) {
                      [&](const Vec3& x) { return std::abs(normal.dot(x - selection.plane->point)) <= tolerance; });
 }
 
-std::string extent(const TetMesh& mesh) {
+std::string extent(const Mesh& mesh) {
   const Box box = bounding_box(mesh);
   return fmt::format("from {} to {}", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max));
 }
 
 }  // namespace
 
-const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const SourceLocation& origin) {
+const std::vector<FaceCorners>& find_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin) {
   const auto it = mesh.surfaces.find(name);
   if (it != mesh.surfaces.end() && !it->second.empty()) return it->second;
   fail_unknown(origin, "surface", name, mesh.surfaces, "in Gmsh, make a Physical Surface");
 }
 
-std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
-                                     const SourceLocation& origin) {
-  return name ? find_surface(mesh, *name, origin) : boundary_triangles(mesh);
+std::vector<FaceCorners> surface_or_all(const Mesh& mesh, const std::optional<std::string>& name,
+                                        const SourceLocation& origin) {
+  return name ? find_surface(mesh, *name, origin) : boundary_faces(mesh);
 }
 
-std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh) {
+std::vector<int> selected_nodes(const Selection& selection, const Mesh& mesh) {
   const auto nodes = select(selection, mesh);
   if (nodes.empty()) selection.origin.fail("selects no node; the mesh extends " + extent(mesh) + " m");
   return {nodes.begin(), nodes.end()};
 }
 
-int nearest_node(const TetMesh& mesh, const Vec3& point) {
+int nearest_node(const Mesh& mesh, const Vec3& point) {
   const auto nearer = [&](const Vec3& a, const Vec3& b) {
     return (a - point).squaredNorm() < (b - point).squaredNorm();
   };

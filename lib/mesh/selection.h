@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -48,16 +48,16 @@ Spec<T> selection_spec() {
 }
 
 // Ascending node indices. Throws ConfigError if no node is selected.
-std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh);
+std::vector<int> selected_nodes(const Selection& selection, const Mesh& mesh);
 
 // The node nearest to a point (m) of the rest shape.
-int nearest_node(const TetMesh& mesh, const Vec3& point);
+int nearest_node(const Mesh& mesh, const Vec3& point);
 
-// The triangles of a surface. Throws ConfigError, with the known names, if the mesh has no such surface.
-const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const SourceLocation& origin);
+// The faces of a surface. Throws ConfigError, with the known names, if the mesh has no such surface.
+const std::vector<FaceCorners>& find_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin);
 
 // As find_surface(); all outer faces of the body if there is no name.
-std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
-                                     const SourceLocation& origin);
+std::vector<FaceCorners> surface_or_all(const Mesh& mesh, const std::optional<std::string>& name,
+                                        const SourceLocation& origin);
 
 }  // namespace orthodyn

@@ -102,10 +102,10 @@ const std::vector<std::array<std::size_t, 2>>& edges_of(CellKind kind) {
   return none;
 }
 
-void append_triangles(std::span<const int> face, std::vector<Triangle>& triangles) {
+void append_triangles(std::span<const int> face, std::vector<FaceCorners>& triangles) {
   for (const CornerIndices& t : cut(face)) {
-    const Triangle triangle{face[t[0]], face[t[1]], face[t[2]]};
-    if (face.size() == 3 || all_differ(triangle)) triangles.push_back(triangle);
+    const std::array triangle{face[t[0]], face[t[1]], face[t[2]]};
+    if (face.size() == 3 || all_differ(triangle)) triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/mesh/cell_kind.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -24,7 +24,7 @@ const std::vector<CornerIndices>& faces_of(CellKind kind);
 const std::vector<std::array<std::size_t, 2>>& edges_of(CellKind kind);
 
 // Appends the triangles of a face of three or four nodes. Triangles with repeated nodes are left out.
-void append_triangles(std::span<const int> face, std::vector<Triangle>& triangles);
+void append_triangles(std::span<const int> face, std::vector<FaceCorners>& triangles);
 
 // Appends the tetrahedra of an element: one for a tet, two for a pyramid, three for a wedge, five or six for a
 // hexahedron. Their volumes are positive if the element has plane faces and is not inverted. Corners may be repeated

@@ -9,7 +9,7 @@ namespace orthodyn {
 
 namespace {
 
-Vec3 sum_of(const TetMesh& mesh, const std::vector<int>& nodes) {
+Vec3 sum_of(const Mesh& mesh, const std::vector<int>& nodes) {
   Vec3 sum = Vec3::Zero();
   for (const int n : nodes) sum += mesh.nodes[static_cast<std::size_t>(n)];
   return sum;

@@ -3,6 +3,7 @@
 // by the serendipity shape functions of the element.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -10,9 +11,12 @@
 #include <vector>
 
 #include "lib/mesh/cell_kind.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
+
+// Mid-edge nodes of a tet, in the order of kTetEdges.
+using Midsides = std::array<int, 6>;
 
 // The mid-edge node between the corners a and b.
 struct EdgeMiddle {
@@ -22,7 +26,7 @@ struct EdgeMiddle {
 class SplitMiddles {
  public:
   // Appends new nodes to the mesh, which must outlive the object.
-  explicit SplitMiddles(TetMesh& mesh) : mesh_(mesh) {}
+  explicit SplitMiddles(Mesh& mesh) : mesh_(mesh) {}
 
   // Call for all elements, tets included, before of(): first add_edges(), then add_diagonals().
   void add_edges(std::span<const EdgeMiddle> edges);
@@ -43,7 +47,7 @@ class SplitMiddles {
   int middle(int a, int b);
   void add_diagonal(int a, int b, const Diagonal& diagonal);
 
-  TetMesh& mesh_;
+  Mesh& mesh_;
   std::unordered_map<std::uint64_t, int> middles_;  // by edge
   std::unordered_map<std::uint64_t, Diagonal> diagonals_;
   std::vector<std::pair<int, Diagonal>> new_on_faces_;

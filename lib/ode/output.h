@@ -34,7 +34,6 @@ struct OutputInfo {
 struct Geometry {
   std::vector<Vec3> points;  // m
   Cells cells;
-  int vtk_cell_type = 0;  // VTK's number of the cell type
 };
 
 // Evaluates outputs of one state. Intermediate results that outputs share (positions of all nodes, forces, momenta) are

@@ -15,7 +15,7 @@ namespace orthodyn {
 class AbaqusRotatedNodes {
  public:
   // `mesh`: the mesh of the same file.
-  AbaqusRotatedNodes(const AbaqusFile& deck, const TetMesh& mesh) {
+  AbaqusRotatedNodes(const AbaqusFile& deck, const Mesh& mesh) {
     for (const AbaqusTransform& transform : deck.transforms) {
       if (transform.is_identity) continue;
       const AbaqusSet* set = find_abaqus(deck.node_sets, transform.set);

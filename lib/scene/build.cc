@@ -21,7 +21,7 @@ double stiffness_damping(const Scene& scene, const Region& region) {
   return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
 }
 
-std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std::vector<const Region*>& regions) {
+std::vector<double> densities(const Scene& scene, const Mesh& mesh, const std::vector<const Region*>& regions) {
   std::vector<double> out;
   for (const int r : mesh.region_of) out.push_back(material_of(scene, *regions[static_cast<std::size_t>(r)]).density());
   return out;
@@ -43,11 +43,33 @@ CellsOfRank cells_of_rank(const ElementMesh& own, const FemModel::Parts& parts, 
   return cells;
 }
 
+// The fields of a region are recovered from elements of one type.
+void require_one_shape_per_region(const Mesh& mesh) {
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
+    Cells cells;
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+      if (mesh.region_of[e] == static_cast<int>(r)) cells.add(mesh.cells.shape(e), mesh.cells[e]);
+    if (cells.empty() || std::count(cells.shapes().begin(), cells.shapes().end(), cells.shape(0)) ==
+                             static_cast<std::ptrdiff_t>(cells.size()))
+      continue;
+    throw ConfigError("mesh", fmt::format("region '{}' has {}; a region has elements of one kind: put each kind into "
+                                          "a region of its own, or set `split: true` to make all of them tetrahedra",
+                                          mesh.region_names[r], describe_cells(cells)));
+  }
+}
+
+// The element type of a region. Precondition: the region has a cell.
+const ElementType& type_of_region(const Mesh& mesh, int region) {
+  const auto cell = std::find(mesh.region_of.begin(), mesh.region_of.end(), region) - mesh.region_of.begin();
+  return element_type(mesh.cells.shape(static_cast<std::size_t>(cell)));
+}
+
 // Makes the elastic terms. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
 void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& own,
                     FemModel::Parts& parts, Warnings& notes) {
-  const TetMesh& mesh = parts.mesh;
+  const Mesh& mesh = parts.mesh;
   const ElementMesh elements(mesh);
+  require_one_shape_per_region(mesh);
   std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = *regions[r];
@@ -60,11 +82,12 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
         cells.here.empty() ? ElementAxes(Mat3::Identity())
                            : element_axes(*region.axes, field, elements, parts.subdomain ? cells.numbers : cells.here);
     parts.elastic.push_back(
-        own.type.elastic_term(own,
-                              {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(),
-                               axes, stiffness_damping(scene, region), elasticity_of(scene, region),
-                               material_of(scene, region).strength(), std::move(cells.numbers), static_cast<int>(all)},
-                              *parts.pattern));
+        type_of_region(mesh, static_cast<int>(r))
+            .elastic_term(own,
+                          {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(), axes,
+                           stiffness_damping(scene, region), elasticity_of(scene, region),
+                           material_of(scene, region).strength(), std::move(cells.numbers), static_cast<int>(all)},
+                          *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }
@@ -130,7 +153,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   return traits;
 }
 
-NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
+NodePairs couplings(const Scene& scene, const Mesh& mesh) {
   NodePairs all;
   for (const TermChoice* term : scene.force_terms())
     for (const auto& pair : term->couplings(mesh)) all.push_back(pair);
@@ -138,7 +161,7 @@ NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
 }
 
 // Volumes, shape gradients and their squares must not overflow or underflow.
-void require_size(const TetMesh& mesh) {
+void require_size(const Mesh& mesh) {
   constexpr double kSmallest = 1e-50, kLargest = 1e50;
   const Box box = bounding_box(mesh);
   const double smallest = box.size().minCoeff();
@@ -167,7 +190,7 @@ void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& r
 }
 
 // Warns that element means hide variation, such as bending of one quadratic element through the thickness.
-void add_note_on_means(const Scene& scene, const TetMesh& mesh, Warnings& warnings) {
+void add_note_on_means(const Scene& scene, const Mesh& mesh, Warnings& warnings) {
   if (mesh.order() == 1) return;
   for (const std::string& field : scene.output.fields)
     if (field == "strain" || field == "stress" || field == "stress_material")
@@ -183,7 +206,7 @@ void add_notes(const Scene& scene, Warnings& warnings) {
     for (const auto& note : material->notes()) warnings.push_back(fmt::format("material {}: {}", name, note));
 }
 
-NodalVector positions(const TetMesh& mesh) {
+NodalVector positions(const Mesh& mesh) {
   NodalVector rest(3, static_cast<Eigen::Index>(mesh.nodes.size()));
   for (Eigen::Index i = 0; i < rest.cols(); ++i) rest.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
   return rest;
@@ -239,7 +262,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   require_free_coordinates(scene, supports.held);
   NodePairs pairs = couplings(scene, parts.mesh);
 
-  TetMesh part;  // several ranks: this rank's part of the mesh
+  Mesh part;  // several ranks: this rank's part of the mesh
   if (ranks) {
     parts.subdomain = std::make_unique<Subdomain>(parts.mesh, pairs, *ranks);
     part = parts.subdomain->part_of(parts.mesh);
@@ -248,7 +271,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
     pairs = pairs_here(pairs, *parts.subdomain);
   }
   const Subdomain* subdomain = parts.subdomain.get();
-  const TetMesh& own = subdomain ? part : parts.mesh;
+  const Mesh& own = subdomain ? part : parts.mesh;
   const int num_nodes = static_cast<int>(own.nodes.size());
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes);
   const bool symmetric = storage == MatrixStorage::by_elasticity &&
@@ -277,7 +300,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
 
 }  // namespace
 
-bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh) {
+bool has_unsymmetric_load(const Scene& scene, const Mesh& mesh) {
   const auto terms = scene.force_terms();
   const std::vector<bool> held = make_supports(scene, mesh).held;
   return std::any_of(terms.begin(), terms.end(),

@@ -24,6 +24,6 @@ BuiltScene build(const Scene& scene, const Ranks* ranks = nullptr,
                  MatrixStorage storage = MatrixStorage::by_elasticity);
 
 // Whether a load of the scene has an unsymmetric tangent. Symmetric storage would drop the skew part of that tangent.
-bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh);
+bool has_unsymmetric_load(const Scene& scene, const Mesh& mesh);
 
 }  // namespace orthodyn

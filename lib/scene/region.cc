@@ -69,7 +69,7 @@ ElasticityOptions elasticity_of(const Scene& scene, const Region& region) {
   return options;
 }
 
-std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh) {
+std::vector<const Region*> assign_regions(const Scene& scene, const Mesh& mesh) {
   std::vector<const Region*> out(mesh.region_names.size(), nullptr);
   const Region* everywhere = nullptr;
   for (const auto& [name, region] : scene.regions) {

@@ -10,7 +10,7 @@
 #include "lib/config/spec.h"
 #include "lib/fem/terms/elasticity_options.h"
 #include "lib/material/material.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
@@ -32,7 +32,7 @@ void complete_regions(const Config& config, Scene& scene);
 
 // For each region of the mesh, the entry of scene.regions that describes the region. Throws ConfigError for mesh
 // regions without an entry and entries without a mesh region.
-std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh);
+std::vector<const Region*> assign_regions(const Scene& scene, const Mesh& mesh);
 
 const Material& material_of(const Scene& scene, const Region& region);
 

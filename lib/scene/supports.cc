@@ -18,7 +18,7 @@ bool wants_reactions(const Scene& scene) {
 // The support that each coordinate belongs to.
 class CoordinateOwners {
  public:
-  explicit CoordinateOwners(const TetMesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
+  explicit CoordinateOwners(const Mesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
 
   // Adds a clamp or, if `moves`, a motion. Clamps may share coordinates; motions may not.
   void add(const std::string& name, const Selection& selection, const std::vector<int>& nodes,
@@ -61,7 +61,7 @@ class CoordinateOwners {
                     supports_[static_cast<std::size_t>(owner)].name));
   }
 
-  const TetMesh& mesh_;
+  const Mesh& mesh_;
   std::vector<int> owner_;  // index of each coordinate's support; -1 for none
   std::vector<Support> supports_;
 };
@@ -96,7 +96,7 @@ class StillMotion : public Motion {
   double time_;
 };
 
-std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given, const TetMesh& mesh,
+std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given, const Mesh& mesh,
                                         const std::vector<int>& nodes) {
   NodalVector X(3, std::ssize(nodes));
   for (Eigen::Index i = 0; i < X.cols(); ++i)
@@ -108,7 +108,7 @@ std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion&
 
 }  // namespace
 
-Supports make_supports(const Scene& scene, const TetMesh& mesh) {
+Supports make_supports(const Scene& scene, const Mesh& mesh) {
   Supports out;
   CoordinateOwners owners(mesh);
   for (std::size_t k = 0; k < scene.clamps.size(); ++k) {

@@ -16,6 +16,6 @@ struct Supports {
 // A coordinate of several clamps belongs to the first. Throws ConfigError for a selection without nodes, a coordinate
 // with two motions or with a clamp and a motion, a duplicate name, and a possible velocity jump with a consistent mass,
 // which would need an infinite force.
-Supports make_supports(const Scene& scene, const TetMesh& mesh);
+Supports make_supports(const Scene& scene, const Mesh& mesh);
 
 }  // namespace orthodyn

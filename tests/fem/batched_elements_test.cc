@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kBeta = 0.02;
 
-TetMesh block(int order) {
-  TetMesh mesh = make_box({.cells = {3, 2, 1}});
+Mesh block(int order) {
+  Mesh mesh = make_box({.cells = {3, 2, 1}});
   if (order == 2) make_quadratic(mesh);
   return mesh;
 }
@@ -51,8 +51,8 @@ class BatchedElements : public testing::TestWithParam<int> {  // order of the el
   }
 
   std::unique_ptr<ElasticTerm> term(const std::vector<int>& cells) const {
-    return elements_.type.elastic_term(elements_, {"body", cells, fibre(10), Random(5).rotation(), kBeta, {}},
-                                       pattern_);
+    return elements_.type(0).elastic_term(elements_, {"body", cells, fibre(10), Random(5).rotation(), kBeta, {}},
+                                          pattern_);
   }
   std::vector<int> all_cells() const {
     std::vector<int> all(elements_.cells.size());
@@ -74,7 +74,7 @@ class BatchedElements : public testing::TestWithParam<int> {  // order of the el
     return out;
   }
 
-  TetMesh mesh_;
+  Mesh mesh_;
   ElementMesh elements_;
   DofMap dofs_;
   BlockPattern pattern_;

@@ -7,6 +7,7 @@
 #include "lib/fem/element_assembly.h"
 #include "lib/mesh/box.h"
 #include "tests/material/constants.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::block_pattern_test {
 namespace {
@@ -69,13 +70,13 @@ INSTANTIATE_TEST_SUITE_P(Patterns, Assembly, testing::Bool(),
 
 TEST_P(Assembly, OfRandomElementsEqualsTheFullMatrixForAnyClamps) {
   Random random(82);
-  const TetMesh mesh = make_box({.cells = {3, 2, 2}});
+  const Mesh mesh = make_box({.cells = {3, 2, 2}});
   for (const double fraction : {0.0, 0.3, 0.9}) {
     const DofMap dofs(static_cast<int>(mesh.nodes.size()), random_clamps(random, mesh.nodes.size(), fraction));
-    const BlockPattern pattern(Cells(mesh.tets), dofs, GetParam());
+    const BlockPattern pattern(mesh.cells, dofs, GetParam());
     std::vector<double> values(pattern.pattern().row.size(), 0);
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(dofs.num_dofs(), dofs.num_dofs());
-    for (const Tet& tet : mesh.tets) {
+    for (const Tet& tet : tets_of(mesh)) {
       const Matrix12 K = random_element(random, GetParam());
       add_dense(K, tet, dofs, expected);
       scatter<4>(blocks_of(K), tet, ElementOffsets<4>(tet, pattern), pattern, values.data());
@@ -88,9 +89,9 @@ TEST_P(Assembly, OfRandomElementsEqualsTheFullMatrixForAnyClamps) {
 
 TEST_P(Assembly, HasAscendingRowsAndTheWholeDiagonal) {
   Random random(83);
-  const TetMesh mesh = make_box({.cells = {2, 2, 2}, .split = BoxMesh::Split::six});
+  const Mesh mesh = make_box({.cells = {2, 2, 2}, .split = BoxMesh::Split::six});
   const DofMap dofs(static_cast<int>(mesh.nodes.size()), random_clamps(random, mesh.nodes.size(), 0.3));
-  const Pattern p = BlockPattern(Cells(mesh.tets), dofs, GetParam()).pattern();
+  const Pattern p = BlockPattern(mesh.cells, dofs, GetParam()).pattern();
   ASSERT_EQ(p.column_start.size(), static_cast<std::size_t>(dofs.num_dofs()) + 1);
   EXPECT_EQ(p.column_start.back(), p.non_zeros());
   for (int j = 0; j < p.n; ++j) {
@@ -106,10 +107,10 @@ TEST_P(Assembly, HasAscendingRowsAndTheWholeDiagonal) {
 }
 
 TEST(Pattern, OfASymmetricMeshIsTheLowerTriangleOfTheGeneralOne) {
-  const TetMesh mesh = make_box({.cells = {2, 1, 1}});
+  const Mesh mesh = make_box({.cells = {2, 1, 1}});
   const DofMap dofs(static_cast<int>(mesh.nodes.size()), std::vector<bool>(3 * mesh.nodes.size(), false));
-  const Pattern lower = BlockPattern(Cells(mesh.tets), dofs, true).pattern(),
-                all = BlockPattern(Cells(mesh.tets), dofs, false).pattern();
+  const Pattern lower = BlockPattern(mesh.cells, dofs, true).pattern(),
+                all = BlockPattern(mesh.cells, dofs, false).pattern();
   EXPECT_EQ(all.non_zeros(), 2 * lower.non_zeros() - lower.n);
 }
 

@@ -21,8 +21,8 @@ const bool built_scene_registered = Registry<MeshSource>::add<GivenMesh>("given"
 
 }  // namespace
 
-TetMesh& given_mesh() {
-  static TetMesh mesh;
+Mesh& given_mesh() {
+  static Mesh mesh;
   return mesh;
 }
 

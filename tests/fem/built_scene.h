@@ -9,14 +9,14 @@
 namespace orthodyn {
 
 // Mesh source `mesh: {type: given}`: the mesh that a test sets here.
-TetMesh& given_mesh();
+Mesh& given_mesh();
 
 struct BuiltTestScene {
   explicit BuiltTestScene(const std::string& yaml);
   explicit BuiltTestScene(const Config& config);
 
   const FemModel& model() const { return *built.model; }
-  const TetMesh& mesh() const { return model().parts().mesh; }
+  const Mesh& mesh() const { return model().parts().mesh; }
   int size() const { return model().num_dofs(); }
   Vector zero() const { return Vector::Zero(size()); }
 

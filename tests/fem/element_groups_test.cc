@@ -21,7 +21,7 @@ class Groups : public testing::TestWithParam<int> {
                            "clamps: [{{surface: x0}}]\ntime: {{end: 1}}\n",
                            GetParam())),
         mesh_(scene_.mesh()),
-        cells_(scene_.mesh().tets.size()) {
+        cells_(scene_.mesh().cells.size()) {
     std::iota(cells_.begin(), cells_.end(), 0);
     std::shuffle(cells_.begin(), cells_.end(), std::mt19937(1));
   }
@@ -84,8 +84,8 @@ TEST_P(Groups, OfFewElementsAreOne) {
 INSTANTIATE_TEST_SUITE_P(Orders, Groups, testing::Values(1, 2));
 
 TEST(BatchLoops, TheSmallestIsOfTheBatchThatGaveIt) {
-  const TetMesh mesh = make_box({.cells = {6, 5, 4}});
-  std::vector<int> cells(mesh.tets.size());
+  const Mesh mesh = make_box({.cells = {6, 5, 4}});
+  std::vector<int> cells(mesh.cells.size());
   std::iota(cells.begin(), cells.end(), 0);
   const ElementMesh elements(mesh);
   const BatchLoops loops(elements, cells);

@@ -46,7 +46,7 @@ TEST(ElementAxes, HaveTheMeanOfTheirPoints) {
 
 // Axes that vary within an element are evaluated at the integration points.
 TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
-  TetMesh mesh = make_box({.size = {2, 1, 1}, .cells = {1, 1, 1}});
+  Mesh mesh = make_box({.size = {2, 1, 1}, .cells = {1, 1, 1}});
   make_quadratic(mesh);
   const auto source = Registry<AxesSource>::read(
       Config::from_text("axes: {type: cylindrical, point: [5, 5, 0], axis: [0, 0, 1]}", "a.yaml").at("axes"));
@@ -55,7 +55,7 @@ TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
   const ElementMesh elements(mesh);
   const ElementAxes axes = element_axes(*source, field, elements, {0, 1, 2, 3, 4});
   for (int k = 0; k < 5; ++k) {
-    const auto points = elements.type.points(elements.positions(static_cast<std::size_t>(k)));
+    const auto points = quadratic_tetrahedron().points(elements.positions(static_cast<std::size_t>(k)));
     ASSERT_EQ(points.cols(), 4);
     for (int p = 0; p < 4; ++p) EXPECT_LE((axes.of(k, p) - field(points.col(p), k)).norm(), 16 * kEps);
   }
@@ -66,7 +66,7 @@ TEST(ElementAxes, OfOneRotationTakeNoMemory) {
   EXPECT_LE(ElementAxes(std::vector<Mat3>(64, Mat3::Identity())).bytes(), 64u * 32);
 }
 
-BuiltTestScene body(const TetMesh& mesh, const std::string& axes, const std::string& more = "") {
+BuiltTestScene body(const Mesh& mesh, const std::string& axes, const std::string& more = "") {
   given_mesh() = mesh;
   return BuiltTestScene(fmt::format(R"(
 mesh: {{type: given}}
@@ -79,7 +79,7 @@ time: {{end: 1}}
                                     fibre_material(10), axes, more));
 }
 
-const TetMesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});
+const Mesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});
 
 class Grain : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Laws, Grain,
@@ -97,7 +97,7 @@ TEST_P(Grain, OfEqualAxesInAllElementsIsThatOfOneRotation) {
   const auto s = body(kBlock, "{}", GetParam());
   const auto& parts = s.model().parts();
   const Mat3 Q = random.rotation();
-  std::vector<int> cells(kBlock.tets.size());
+  std::vector<int> cells(kBlock.cells.size());
   for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = static_cast<int>(k);
   const auto term = [&](const ElementAxes& axes) {
     return linear_tetrahedron().elastic_term(
@@ -148,7 +148,7 @@ TEST_P(TurningGrain, TurnsAndMovesWithTheWholeProblem) {
   Random random(204);
   const Mat3 R = random.rotation();
   const Vec3 shift = random.vector(), point(0.3, 0.2, 0.1), axis(0.2, 0.3, 1);
-  TetMesh turned = kBlock;
+  Mesh turned = kBlock;
   for (Vec3& X : turned.nodes) X = R * X + shift;
   const auto text = [](const Vec3& p, const Vec3& a) {
     return fmt::format("{{type: cylindrical, point: {}, axis: {}, spiral: 0.3 rad}}", Value<Vec3>::yaml(p),
@@ -168,9 +168,8 @@ TEST_P(TurningGrain, TurnsAndMovesWithTheWholeProblem) {
 TEST(GrainField, IsObservedInEachElement) {
   const auto s = body(kBlock, "{type: cylindrical, point: [1, 0.5, 0]}");
   const auto radial = s.model().evaluate("material_axis_2", {0, s.zero(), s.zero()});
-  for (std::size_t e = 0; e < kBlock.tets.size(); ++e) {
-    Vec3 c = Vec3::Zero();
-    for (const int node : kBlock.tets[e]) c += kBlock.nodes[static_cast<std::size_t>(node)] / 4;
+  for (std::size_t e = 0; e < kBlock.cells.size(); ++e) {
+    const Vec3 c = centroid(kBlock, static_cast<int>(e));
     const Vec3 expected = Vec3(c[0] - 1, c[1] - 0.5, 0).normalized();
     EXPECT_LE((Eigen::Map<const Vec3>(&radial[3 * e]) - expected).norm(), 1e-12);
   }
@@ -186,7 +185,7 @@ class Tube {
   explicit Tube(int cells) : scene_(make(cells)) {
     const auto& mesh = scene_.mesh();
     NodalVector load = NodalVector::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-    for (const Triangle& t : mesh.surfaces.at("x0")) {
+    for (const FaceCorners& t : mesh.surfaces.at("x0")) {
       const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
       const Vec3 outward_area = 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
       for (const int node : t) load.col(node) -= outward_area / 3;
@@ -229,7 +228,7 @@ class Tube {
   static OrthotropicConstants constants() { return stable_family({1, 16, 2}, 0.3); }
 
   static BuiltTestScene make(int cells) {
-    TetMesh mesh = make_box({.size = {1, 1, 0.25}, .cells = {cells, cells, 1}});
+    Mesh mesh = make_box({.size = {1, 1, 0.25}, .cells = {cells, cells, 1}});
     for (Vec3& X : mesh.nodes) {
       const double r = 1 + X[0], angle = X[1] * std::numbers::pi / 2;
       X = {r * std::cos(angle), r * std::sin(angle), X[2]};

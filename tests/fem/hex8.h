@@ -1,4 +1,4 @@
-// A trilinear brick with 2 x 2 x 2 points: a second element, which only tests have. Nodes as in VTK_HEXAHEDRON.
+// A trilinear brick with 2 x 2 x 2 points: an element that only tests have. Nodes as in VTK_HEXAHEDRON.
 #pragma once
 
 #include <Eigen/LU>
@@ -9,9 +9,8 @@
 namespace orthodyn {
 
 struct Hex8 {
-  static constexpr const char* kName = "trilinear hexahedron";
+  static constexpr CellShape kShape = CellShape::hex8;
   static constexpr int kNodes = 8, kPoints = 8, kDegree = 1;
-  static constexpr int kVtkCellType = 12;
   static constexpr std::array<double, kNodes> kLumpedShares{.125, .125, .125, .125, .125, .125, .125, .125};
   static constexpr double kLumpedToConsistent = 27;  // of a parallelepiped: 3 in each direction
 

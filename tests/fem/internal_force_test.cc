@@ -8,11 +8,12 @@
 #include "lib/core/symmetric_eigen.h"
 #include "lib/mesh/box.h"
 #include "tests/fem/built_scene.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::internal_force_test {
 namespace {
 
-BuiltTestScene body(const TetMesh& mesh, const std::string& material, const std::string& corotation = "exact",
+BuiltTestScene body(const Mesh& mesh, const std::string& material, const std::string& corotation = "exact",
                     const Mat3& axes = Mat3::Identity()) {
   given_mesh() = mesh;
   const auto text = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); };
@@ -26,9 +27,9 @@ time: {{end: 1}}
                                     material, text(axes.col(0)), text(axes.col(1)), corotation));
 }
 
-const TetMesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});
+const Mesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});
 
-Mat3 edges_of(const TetMesh& mesh, const Tet& tet) {
+Mat3 edges_of(const Mesh& mesh, const Tet& tet) {
   Mat3 e;
   for (int k = 0; k < 3; ++k)
     e.col(k) = mesh.nodes[static_cast<std::size_t>(tet[static_cast<std::size_t>(k) + 1])] -
@@ -44,9 +45,9 @@ Eigen::Matrix<double, 3, 4> gradients(const Mat3& edges) {
   return g;
 }
 
-double smallest_height(const TetMesh& mesh) {
+double smallest_height(const Mesh& mesh) {
   double largest = 0;
-  for (const Tet& tet : mesh.tets)
+  for (const Tet& tet : tets_of(mesh))
     largest = std::max(largest, gradients(edges_of(mesh, tet)).colwise().norm().maxCoeff());
   return 1 / largest;
 }
@@ -54,7 +55,7 @@ double smallest_height(const TetMesh& mesh) {
 // max |f_i| / f_ref,i with f_ref,i = Cmax sum_e V_e |g_i|, in units of eps max(1, |x|max / h_min).
 double null_force(const BuiltTestScene& s, const Vector& q, double c_max) {
   Vector reference = Vector::Zero(static_cast<Eigen::Index>(s.mesh().nodes.size()));
-  for (const Tet& tet : s.mesh().tets) {
+  for (const Tet& tet : tets_of(s.mesh())) {
     const Mat3 e = edges_of(s.mesh(), tet);
     const auto g = gradients(e);
     for (int a = 0; a < 4; ++a)
@@ -85,11 +86,11 @@ TEST(InternalForce, VanishesAtRestAndAfterRigidMotionToRoundOff) {
 }
 
 // One tetrahedron, nearly flat, with a dihedral angle of this many degrees.
-TetMesh sliver(double degrees) {
+Mesh sliver(double degrees) {
   const double height = 0.4 * std::tan(degrees * std::numbers::pi / 180);
-  TetMesh mesh;
+  Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0.3, 0.9, 0}, {0.4, 0.4, height}};
-  mesh.tets = {{0, 1, 2, 3}};
+  mesh.cells = Cells(std::vector<Tet>{{0, 1, 2, 3}});
   mesh.region_of = {0};
   mesh.region_names = {"body"};
   return mesh;
@@ -126,7 +127,7 @@ TEST(InternalForce, FrequencyBoundOfTheElementsHoldsForTheMesh) {
 // Row 3: rest positions of the inner nodes at random, affine motion of all nodes.
 TEST(PatchTest, AnAffineMotionLeavesNoForceOnInnerNodes) {
   Random random(113);
-  TetMesh mesh = make_box({.cells = {4, 4, 4}});
+  Mesh mesh = make_box({.cells = {4, 4, 4}});
   std::vector<bool> inner(mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     inner[i] = (mesh.nodes[i].array() > 0.01).all() && (mesh.nodes[i].array() < 0.99).all();
@@ -193,7 +194,7 @@ TEST(IsotropicForce, IsTheTextbooksAndTheWarpedOne) {
   const Vector q = random_dofs(random, exact.size(), 0.1);
   const NodalVector x = exact.positions(q);
   NodalVector expected = NodalVector::Zero(3, x.cols());
-  for (const Tet& tet : exact.mesh().tets) {
+  for (const Tet& tet : tets_of(exact.mesh())) {
     const Mat3 rest = edges_of(exact.mesh(), tet);
     Mat3 now;
     for (int k = 0; k < 3; ++k) now.col(k) = x.col(tet[static_cast<std::size_t>(k) + 1]) - x.col(tet[0]);
@@ -217,7 +218,7 @@ TEST(InternalForce, KnowsNoUnitOfLength) {
   const Vector f = unit.force(q);
   const Eigen::MatrixXd K = unit.stiffness(q);
   for (const double scale : {1e7, 1e-7}) {
-    TetMesh mesh = kBlock;
+    Mesh mesh = kBlock;
     for (Vec3& X : mesh.nodes) X *= scale;
     const auto s = body(mesh, fibre_material(10));
     EXPECT_LE((s.force(scale * q) / (scale * scale) - f).norm(), 1e-12 * f.norm()) << scale;
@@ -241,7 +242,7 @@ TEST(InternalForce, TurnsWithTheWholeProblem) {
   Random random(119);
   for (const double amplitude : {0.1, 0.6}) {
     const Mat3 R = random.rotation(), Q = random.rotation();
-    TetMesh turned = kBlock;
+    Mesh turned = kBlock;
     for (Vec3& X : turned.nodes) X = R * X;
     const auto here = body(kBlock, fibre_material(10), "exact", Q);
     const auto there = body(turned, fibre_material(10), "exact", R * Q);

@@ -41,15 +41,12 @@ const Case kCurvedIsotropic{"curved_isotropic", "{type: isotropic, density: 1, y
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
 // half x > 0.5 is a softer material with more damping.
 BuiltTestScene block(const Case& c, const std::string& more = "") {
-  TetMesh mesh = make_box({.cells = {2, 2, 1}});
+  Mesh mesh = make_box({.cells = {2, 2, 1}});
   const bool two = c.name == "two_regions";
   if (two) {
     mesh.region_names.push_back("soft");
-    for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-      double x = 0;
-      for (const int node : mesh.tets[e]) x += mesh.nodes[static_cast<std::size_t>(node)][0] / 4;
-      mesh.region_of[e] = x > 0.5;
-    }
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+      mesh.region_of[e] = centroid(mesh, static_cast<int>(e))[0] > 0.5;
   }
   if (c.curved) {
     Random random(110);

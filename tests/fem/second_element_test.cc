@@ -1,9 +1,10 @@
-// lib/fem with an element of another shape, with more nodes and points than the tetrahedron: no code depends on the
+// lib/fem with elements of another shape, with more nodes and points than the tetrahedron: no code depends on the
 // element types.
 #include <gtest/gtest.h>
 
 #include "lib/fem/element_type_of.h"
 #include "lib/fem/mass.h"
+#include "lib/mesh/quadratic.h"
 #include "tests/element/states.h"
 #include "tests/fem/hex8.h"
 
@@ -13,19 +14,28 @@ namespace {
 constexpr double kDensity = 3, kBeta = 0.2;
 const Vec3 kSize(2, 0.5, 1);
 
-// Two bricks in a row, sheared, with free nodes.
+// Two bricks in a row, sheared.
+Mesh two_bricks() {
+  Mesh mesh;
+  const Mat3 shear = (Mat3() << 1, 0.3, 0, 0, 1, 0.2, 0, 0, 1).finished();
+  for (int layer = 0; layer < 3; ++layer)
+    for (int a = 0; a < 4; ++a) {
+      const Vec3 corner = (Vec3::Ones() + Hex8::corner(a)) / 2;
+      mesh.nodes.push_back(shear * kSize.cwiseProduct(Vec3(corner[0], corner[1], 0.5 * layer)));
+    }
+  mesh.cells = Cells(CellShape::hex8, std::vector{0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11});
+  return mesh;
+}
+
+Eigen::MatrixXd full(const BlockPattern& pattern, const std::vector<double>& values) {
+  return Eigen::MatrixXd(Eigen::MatrixXd(pattern.pattern().matrix(values.data())).selfadjointView<Eigen::Lower>());
+}
+
+// Free bricks of 8 nodes, of which the library has no element.
 class Bricks : public testing::Test {
  protected:
   Bricks() {
-    for (int layer = 0; layer < 3; ++layer)
-      for (int a = 0; a < 4; ++a) {
-        const Vec3 corner = (Vec3::Ones() + Hex8::corner(a)) / 2;
-        nodes.push_back(shear * kSize.cwiseProduct(Vec3(corner[0], corner[1], 0.5 * layer)));
-      }
-    std::vector<int> all;
-    for (int k = 0; k < 16; ++k) all.push_back(k < 8 ? k : k - 4);
-    mesh.cells = Cells(Hex8::kNodes, all);
-    for (int i = 0; i < x.cols(); ++i) rest.col(i) = nodes[static_cast<std::size_t>(i)];
+    for (int i = 0; i < x.cols(); ++i) rest.col(i) = bricks.node(i);
     x = rest;
     for (int i = 0; i < x.size(); ++i) {
       x(i) += random.between(-0.05, 0.05);
@@ -43,43 +53,87 @@ class Bricks : public testing::Test {
   Placed at(const NodalVector& positions, const NodalVector& velocities) const {
     return {positions, positions - rest, velocities};
   }
-  Eigen::MatrixXd full(const std::vector<double>& values) const {
-    return Eigen::MatrixXd(Eigen::MatrixXd(pattern.pattern().matrix(values.data())).selfadjointView<Eigen::Lower>());
-  }
-  Eigen::MatrixXd matrix_of(const Mass& mass) const {
-    std::vector<double> values(pattern.pattern().row.size(), 0);
-    mass.add_to(1, values.data());
-    return full(values);
+  Eigen::MatrixXd full(const std::vector<double>& values) const { return second_element_test::full(pattern, values); }
+  // The sum of the elements' matrices.
+  Eigen::MatrixXd mass_matrix(MassKind kind) const {
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * kNumNodes, 3 * kNumNodes);
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+      const auto nodes = mesh.cells[e];
+      const auto X = mesh.positions(e);
+      const Eigen::MatrixXd one = kind == MassKind::lumped ? Eigen::MatrixXd(type.lumped_mass(X, kDensity).asDiagonal())
+                                                           : type.consistent_mass(X, kDensity);
+      for (Eigen::Index a = 0; a < one.rows(); ++a)
+        for (Eigen::Index b = 0; b < one.cols(); ++b)
+          M.block<3, 3>(3 * nodes[static_cast<std::size_t>(a)], 3 * nodes[static_cast<std::size_t>(b)]) +=
+              one(a, b) * Mat3::Identity();
+    }
+    return M;
   }
 
   static constexpr int kNumNodes = 12;
   ElementTypeOf<Hex8> type;
-  Mat3 shear = (Mat3() << 1, 0.3, 0, 0, 1, 0.2, 0, 0, 1).finished();
-  std::vector<Vec3> nodes;
-  ElementMesh mesh{type, nodes, {}};
+  Mesh bricks = two_bricks();
+  ElementMesh mesh{bricks};
   DofMap dofs{kNumNodes, std::vector<bool>(3 * kNumNodes, false)};
   Random random{301};
   Mat3 random_axes = random.rotation();
   NodalVector rest{3, kNumNodes}, x{3, kNumNodes}, v{3, kNumNodes};
-  BlockPattern pattern{Cells(Hex8::kNodes, {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11}), dofs, true};
+  BlockPattern pattern{bricks.cells, dofs, true};
 };
 
+// The x components are the places along z.
+Vector linear_field(const std::vector<Vec3>& nodes) {
+  Vector z = Vector::Zero(static_cast<Eigen::Index>(3 * nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) z[static_cast<Eigen::Index>(3 * i)] = nodes[i][2];
+  return z;
+}
+// The integral of z^2 over the box, times the density.
+const double kMassOfLinearField = kDensity * kSize.prod() * kSize[2] * kSize[2] / 3;
+
 TEST_F(Bricks, HaveTheirMass) {
+  for (const auto kind : {MassKind::lumped, MassKind::consistent})
+    EXPECT_NEAR(mass_matrix(kind).sum(), 3 * kDensity * kSize.prod(), 1e-13 * kDensity);
+}
+
+// Rates linear in space are represented exactly.
+TEST_F(Bricks, HaveTheConsistentMassOfLinearFields) {
+  const Vector z = linear_field(bricks.nodes);
+  EXPECT_NEAR(z.dot(mass_matrix(MassKind::consistent) * z), kMassOfLinearField, 1e-13);
+}
+
+// The same bricks with 20 nodes.
+class QuadraticBricks : public testing::Test {
+ protected:
+  static Mesh make() {
+    Mesh mesh = two_bricks();
+    make_quadratic(mesh);
+    return mesh;
+  }
+
+  Mesh bricks = make();
+  ElementMesh mesh{bricks};
+  DofMap dofs{static_cast<int>(bricks.nodes.size()), std::vector<bool>(3 * bricks.nodes.size(), false)};
+  BlockPattern pattern{bricks.cells, dofs, true};
+};
+
+TEST_F(QuadraticBricks, HaveTheirMass) {
   for (const auto kind : {MassKind::lumped, MassKind::consistent}) {
     const Mass mass(kind, mesh, {kDensity, kDensity}, dofs, pattern);
     EXPECT_NEAR(mass.total(), kDensity * kSize.prod(), 64 * kEps * kDensity);
-    EXPECT_NEAR(matrix_of(mass).sum(), 3 * kDensity * kSize.prod(), 1e-13 * kDensity);
+    std::vector<double> values(pattern.pattern().row.size(), 0);
+    mass.add_to(1, values.data());
+    EXPECT_NEAR(full(pattern, values).sum(), 3 * kDensity * kSize.prod(), 1e-13 * kDensity);
+    const double excess = kind == MassKind::lumped ? 1 : element_type(CellShape::hex20).lumped_to_consistent();
+    EXPECT_EQ(mass.frequency_excess(), excess);
   }
 }
 
-// Rates linear in space are represented exactly: integral of z^2 over the box.
-TEST_F(Bricks, HaveTheConsistentMassOfLinearFields) {
+TEST_F(QuadraticBricks, HaveTheConsistentMassOfLinearFields) {
   const Mass mass(MassKind::consistent, mesh, {kDensity, kDensity}, dofs, pattern);
-  Vector z = Vector::Zero(3 * kNumNodes);
-  for (int i = 0; i < kNumNodes; ++i) z[3 * i] = rest(2, i);
+  const Vector z = linear_field(bricks.nodes);
   Vector Mz(z.size());
   mass.multiply(z, Mz);
-  EXPECT_NEAR(z.dot(Mz), kDensity * kSize.prod() * kSize[2] * kSize[2] / 3, 1e-13);
+  EXPECT_NEAR(z.dot(Mz), kMassOfLinearField, 1e-13);
 }
 
 TEST_F(Bricks, GiveAnAffineMapItsEnergy) {
@@ -131,15 +185,13 @@ TEST_F(Bricks, HaveTheDerivativesOfTheForceAsStiffnessAndDamping) {
 TEST_F(Bricks, AreBoundedInFrequency) {
   std::vector<double> K(pattern.pattern().row.size(), 0);
   const NodalVector still = NodalVector::Zero(3, kNumNodes);
-  const auto bricks = term({.kinematics = Kinematics::linear});
-  bricks->add_tangent(at(rest, still), TangentKind::exact, K.data(), nullptr);
-  const Mass lumped(MassKind::lumped, mesh, {kDensity, kDensity}, dofs, pattern);
-  const Mass consistent(MassKind::consistent, mesh, {kDensity, kDensity}, dofs, pattern);
-  const double bound = bricks->max_frequency_squared(kDensity);
-  for (const Mass* mass : {&lumped, &consistent}) {
+  const auto elastic = term({.kinematics = Kinematics::linear});
+  elastic->add_tangent(at(rest, still), TangentKind::exact, K.data(), nullptr);
+  const double bound = elastic->max_frequency_squared(kDensity);
+  for (const auto kind : {MassKind::lumped, MassKind::consistent}) {
     const double largest =
-        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(full(K), matrix_of(*mass)).eigenvalues().maxCoeff();
-    EXPECT_LE(largest, mass->frequency_excess() * bound);
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(full(K), mass_matrix(kind)).eigenvalues().maxCoeff();
+    EXPECT_LE(largest, (kind == MassKind::lumped ? 1 : type.lumped_to_consistent()) * bound);
     EXPECT_GE(largest, 0.1 * bound);
   }
 }

@@ -153,8 +153,8 @@ class AxesFromFiles : public testing::Test {
   }
   static Mat3 at(const std::string& path, int element, std::size_t mesh_size, const std::string& more = "",
                  Warnings* notes = nullptr) {
-    TetMesh mesh;
-    mesh.tets.resize(mesh_size);
+    Mesh mesh;
+    mesh.cells = Cells(std::vector<Tet>(mesh_size));
     const auto source = axes_source("{type: file, file: " + path + more + "}");
     Warnings ignored;
     return source->field(mesh, notes ? *notes : ignored)(Vec3::Zero(), element);

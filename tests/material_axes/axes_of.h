@@ -18,12 +18,12 @@ inline std::shared_ptr<const AxesSource> axes_source(const std::string& yaml) {
 inline Mat3 axes_at(const std::string& yaml, const Vec3& centroid = Vec3::Zero(), int element = 0) {
   const auto source = axes_source(yaml);
   Warnings notes;
-  return source->field(TetMesh{}, notes)(centroid, element);
+  return source->field(Mesh{}, notes)(centroid, element);
 }
 
 inline Warnings notes_of(const std::string& yaml) {
   Warnings notes;
-  axes_source(yaml)->field(TetMesh{}, notes);
+  axes_source(yaml)->field(Mesh{}, notes);
   return notes;
 }
 

@@ -7,6 +7,7 @@
 #include "lib/mesh/io/vtu.h"
 #include "lib/mesh/refine.h"
 #include "tests/material_axes/axes_of.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::split_mesh_test {
 namespace {
@@ -51,18 +52,18 @@ class AxesOfASplitMesh : public testing::Test {
     return source_->field(mesh_, notes_);
   }
   void expect_those_of_cells(const AxesField& axes) const {
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+    for (std::size_t t = 0; t < mesh_.cells.size(); ++t)
       EXPECT_EQ(axes(Vec3::Zero(), static_cast<int>(t)).col(0), mesh_.cell_of[t] == 0 ? Vec3::UnitX() : Vec3::UnitY())
           << t;
   }
 
-  TetMesh mesh_ = read_vtu_text("cubes.vtu", kVtu).mesh;
+  Mesh mesh_ = read_vtu_text("cubes.vtu", kVtu).mesh;
   std::shared_ptr<const AxesSource> source_;
   Warnings notes_;
 };
 
 TEST_F(AxesOfASplitMesh, HaveARowOfCsvForEachElementOfTheFile) {
-  ASSERT_EQ(mesh_.tets.size(), 12u);
+  ASSERT_EQ(mesh_.cells.size(), 12u);
   expect_those_of_cells(field(write(".csv", kHead + kFirst + kSecond)));
 }
 
@@ -72,7 +73,7 @@ TEST_F(AxesOfASplitMesh, MayNameTheElementsInCsv) {
 
 TEST_F(AxesOfASplitMesh, AreRefusedWhereRowsAreNotOfTheFilesElements) {
   EXPECT_TRUE(holds(refusal([&] { field(write(".csv", kHead + kFirst)); }),
-                    "1 rows for a mesh of 2 elements (split into 12 tetrahedra)"));
+                    "1 rows for a mesh of 2 elements (split into 12 cells)"));
   EXPECT_TRUE(holds(refusal([&] { field(write(".csv", "element," + kHead + "2," + kFirst)); }),
                     "element 2 does not exist; the mesh has 0 to 1"));
   const auto axes = field(write(".csv", "element," + kHead + "0," + kFirst));
@@ -101,12 +102,15 @@ TEST_F(AxesOfASplitMesh, StayWhereTheMeshIsRefined) {
 TEST_F(AxesOfASplitMesh, OfAnotherMeshAreRefusedWhereItIsRefined) {
   LoadedMesh loaded{.mesh = mesh_};
   refine(loaded);
-  std::swap(loaded.mesh.tets[0], loaded.mesh.tets[95]);
-  std::rotate(loaded.mesh.tets.begin(), loaded.mesh.tets.begin() + 48, loaded.mesh.tets.end());
+  auto tets = tets_of(loaded.mesh);
+  std::swap(tets[0], tets[95]);
+  std::rotate(tets.begin(), tets.begin() + 48, tets.end());
   mesh_ = loaded.mesh;
+  mesh_.cells = Cells(tets);
   EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "have different positions"));
-  mesh_.tets.pop_back();
-  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "12 tetrahedra for a mesh of 95"));
+  tets.pop_back();
+  mesh_.cells = Cells(tets);
+  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "12 cells for a mesh of 95"));
 }
 
 TEST_F(AxesOfASplitMesh, ThatAreNoRotationAreRefusedWithTheCell) {

@@ -35,14 +35,14 @@ std::string refusal(const std::string& text) {
   return refusal_of([&] { load(text); });
 }
 
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) sum += cell_volume(mesh, e);
   return sum;
 }
 
 TEST(AbaqusDeck, CoordinatesThatAreLeftOutAreZero) {
-  const TetMesh mesh = load(kDeck).mesh;
+  const Mesh mesh = load(kDeck).mesh;
   EXPECT_EQ(mesh.nodes[1], Vec3(1, 0, 0));
   EXPECT_EQ(mesh.nodes[3], Vec3(0, 1, 0));
   EXPECT_EQ(mesh.nodes[4], Vec3(0, 0, 1));
@@ -53,10 +53,10 @@ TEST(AbaqusDeck, CoordinatesThatAreLeftOutAreZero) {
 // An azimuth of 90 degrees is the y axis; the second angle of a sphere is the elevation above the x-y plane.
 TEST(AbaqusDeck, NodesMayBeInCylindricalOrSphericalCoordinates) {
   const std::string element = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1,2,3,4\n";
-  const TetMesh cylinder = load("*NODE, SYSTEM=C\n1, 1., 0., 0.\n2, 2.\n3, 2., 90.\n4, 1., 0., 1.\n" + element).mesh;
+  const Mesh cylinder = load("*NODE, SYSTEM=C\n1, 1., 0., 0.\n2, 2.\n3, 2., 90.\n4, 1., 0., 1.\n" + element).mesh;
   EXPECT_EQ(cylinder.nodes[2], Vec3(0, 2, 0));
   EXPECT_EQ(cylinder.nodes[3], Vec3(1, 0, 1));
-  const TetMesh sphere = load("*NODE, SYSTEM=S\n1\n2, 2.\n3, 2., 90.\n4, 3., 60., 30.\n" + element).mesh;
+  const Mesh sphere = load("*NODE, SYSTEM=S\n1\n2, 2.\n3, 2., 90.\n4, 3., 60., 30.\n" + element).mesh;
   EXPECT_EQ(sphere.nodes[2], Vec3(0, 2, 0));
   EXPECT_LT((sphere.nodes[3] - Vec3(3 * std::sqrt(3.) / 4, 9. / 4, 3. / 2)).norm(), 1e-15);
 }
@@ -73,12 +73,12 @@ TEST(AbaqusDeck, OtherFilesAreReadInTheirPlace) {
                "*NODE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D8, ELSET=ALL, INPUT=elements.txt\n"
                "*INCLUDE, INPUT=more.inc\n*NSET, NSET=LAST\n12\n");
   folder.write("b.inp", "*NODE\n*INCLUDE, INPUT=nodes.txt\n13, 5, 5, 5\n*ELEMENT, TYPE=C3D8\n" + kElements);
-  const TetMesh a = read_abaqus(folder.path("a.inp")).mesh;
+  const Mesh a = read_abaqus(folder.path("a.inp")).mesh;
   EXPECT_EQ(a.nodes, load(kDeck).mesh.nodes);
   EXPECT_EQ(a.node_sets.at("FIX"), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(a.node_sets.at("LAST"), (std::vector<int>{11}));
   EXPECT_EQ(a.region_names, (std::vector<std::string>{"ALL", "STIFF"}));
-  EXPECT_EQ(read_abaqus(folder.path("b.inp")).mesh.tets, load(kDeck).mesh.tets);
+  EXPECT_EQ(read_abaqus(folder.path("b.inp")).mesh.cells, load(kDeck).mesh.cells);
 }
 
 TEST(AbaqusDeck, FilesThatAreNotThereOrHoldOtherThingsAreNamed) {
@@ -99,7 +99,7 @@ TEST(AbaqusDeck, FilesThatAreNotThereOrHoldOtherThingsAreNamed) {
 }
 
 TEST(AbaqusDeck, ANodeSetMayBeTheNodesOfElements) {
-  const TetMesh mesh = load(kDeck + "*ELSET, ELSET=TOP\n2,\n*NSET, NSET=N, ELSET=TOP\n").mesh;
+  const Mesh mesh = load(kDeck + "*ELSET, ELSET=TOP\n2,\n*NSET, NSET=N, ELSET=TOP\n").mesh;
   EXPECT_EQ(mesh.node_sets.at("N"), (std::vector<int>{4, 5, 6, 7, 8, 9, 10, 11}));
   EXPECT_CONTAINS(refusal(kDeck + "*NSET, NSET=N, ELSET=NONE\n"), "body.inp:17: no *ELSET \"NONE\"");
 }
@@ -152,7 +152,7 @@ TEST(AbaqusDeck, SurplusNodesSayHowManyTheTypeHas) {
 // Shells on the top: SPOS and SNEG are the same faces.
 TEST(AbaqusDeck, SidesOfShellsAreSurfaces) {
   const std::string shells = kDeck + "*ELEMENT, TYPE=S4R, ELSET=SHELL\n3, 9, 10, 11, 12\n*SURFACE, NAME=A\nSHELL, ";
-  const TetMesh up = load(shells + "SPOS\n").mesh, down = load(shells + "SNEG\n").mesh;
+  const Mesh up = load(shells + "SPOS\n").mesh, down = load(shells + "SNEG\n").mesh;
   EXPECT_EQ(up.surfaces.at("A").size(), 2u);
   EXPECT_EQ(up.surfaces.at("A").size(), down.surfaces.at("A").size());
   EXPECT_CONTAINS(refusal(kDeck + "*SURFACE, NAME=A\nALL, SPOS\n"), "SPOS and SNEG are sides of shells");
@@ -172,7 +172,7 @@ TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
                                  "*NODE\n1, 9, 9, 9\n*NSET, NSET=Feet, INSTANCE=One\nFoot\n"
                                  "*NSET, NSET=Feet, INSTANCE=Two\n1, 2\n*NSET, NSET=Tip\nTwo.11, One.Foot\n"
                                  "*NSET, NSET=Centre\n1\n*END ASSEMBLY\n");
-  const TetMesh& mesh = loaded.mesh;
+  const Mesh& mesh = loaded.mesh;
   EXPECT_NEAR(volume(mesh), 4, 1e-14);
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"One.Low", "One.High", "Two.Low", "Two.High"}));
   EXPECT_EQ(mesh.node_sets.at("Feet"), (std::vector<int>{0, 1, 2, 3, 12, 13}));
@@ -183,7 +183,7 @@ TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
   // The section axes rotate with the instance.
   const CellData* first = find_cell_data(loaded, "axis_1");
   ASSERT_TRUE(first);
-  const auto of_two = static_cast<std::ptrdiff_t>(3 * mesh.tets.size() / 2);
+  const auto of_two = static_cast<std::ptrdiff_t>(3 * mesh.cells.size() / 2);
   EXPECT_LT((Eigen::Map<const Vec3>(&first->values[0]) - Vec3(1, 0, 0)).norm(), 1e-15);
   EXPECT_LT((Eigen::Map<const Vec3>(&first->values[static_cast<std::size_t>(of_two)]) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_CONTAINS(join(loaded.warnings), "1000 is added to those of Two");
@@ -191,10 +191,10 @@ TEST(AbaqusDeck, InstancesStandWhereTheyArePlaced) {
 
 // As written by Abaqus/CAE: part and assembly have sets of the same name with different nodes.
 TEST(AbaqusDeck, SetsOfThePartAndOfTheAssemblyAreDifferentSets) {
-  const TetMesh mesh = load(kParts +
-                            "*INSTANCE, NAME=Cube-1, PART=Cube\n*END INSTANCE\n"
-                            "*NSET, NSET=Foot, INSTANCE=Cube-1\n9\n*END ASSEMBLY\n")
-                           .mesh;
+  const Mesh mesh = load(kParts +
+                         "*INSTANCE, NAME=Cube-1, PART=Cube\n*END INSTANCE\n"
+                         "*NSET, NSET=Foot, INSTANCE=Cube-1\n9\n*END ASSEMBLY\n")
+                        .mesh;
   EXPECT_EQ(mesh.node_sets.at("Foot"), std::vector<int>{8});
   EXPECT_EQ(mesh.node_sets.at("Cube-1.Foot"), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"Low", "High"}));
@@ -217,7 +217,7 @@ TEST(AbaqusDeck, InstancesThatCannotBePlacedAreRefused) {
 // Columns: axes 1, 2 and 3 of the first tet of one of the two elements.
 Mat3 axes_of(const LoadedMesh& loaded, std::size_t element) {
   const CellData *first = find_cell_data(loaded, "axis_1"), *second = find_cell_data(loaded, "axis_2");
-  const std::size_t at = 3 * element * loaded.mesh.tets.size() / 2;
+  const std::size_t at = 3 * element * loaded.mesh.cells.size() / 2;
   Mat3 Q;
   Q.col(0) = Eigen::Map<const Vec3>(&first->values[at]);
   Q.col(1) = Eigen::Map<const Vec3>(&second->values[at]);

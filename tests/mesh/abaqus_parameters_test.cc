@@ -75,11 +75,11 @@ bool same(const MeshMaterial& a, const MeshMaterial& b) {
 }
 
 bool same(const LoadedMesh& a, const LoadedMesh& b) {
-  const TetMesh &m = a.mesh, &n = b.mesh;
+  const Mesh &m = a.mesh, &n = b.mesh;
   std::vector<std::vector<double>> data_a, data_b;
   for (const CellData& data : a.cell_data) data_a.push_back(data.values);
   for (const CellData& data : b.cell_data) data_b.push_back(data.values);
-  return m.nodes == n.nodes && m.tets == n.tets && m.region_names == n.region_names && m.region_of == n.region_of &&
+  return m.nodes == n.nodes && m.cells == n.cells && m.region_names == n.region_names && m.region_of == n.region_of &&
          m.surfaces == n.surfaces && m.node_sets == n.node_sets && data_a == data_b && a.warnings == b.warnings &&
          same(material_of(a), material_of(b));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::abaqus_test {
 namespace {
@@ -41,21 +42,21 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Abaqus, ReadsNodesElementsAndSetsInAnyCase) {
-  const TetMesh mesh = load(kDeck).mesh;
-  EXPECT_EQ(mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  const Mesh mesh = load(kDeck).mesh;
+  EXPECT_EQ(tets_of(mesh), (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(mesh.node_sets.at("All").size(), 5u);
   EXPECT_EQ(mesh.node_sets.at("ends"), (std::vector<int>{0, 4}));
   EXPECT_EQ(mesh.node_sets.at("every second"), (std::vector<int>{0, 2, 4}));
 }
 
 TEST(Abaqus, TheLastSetThatNamesAnElementIsItsRegion) {
-  const TetMesh mesh = load(kDeck).mesh;
+  const Mesh mesh = load(kDeck).mesh;
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"Body", "far"}));
   EXPECT_EQ(mesh.region_of, (std::vector<int>{0, 1}));
 }
 
 TEST(Abaqus, SolidSectionsDecideRegionsWhereThereAreSome) {
-  const TetMesh mesh = load(kDeck + "*Solid Section, elset=BODY, material=steel\n,\n").mesh;
+  const Mesh mesh = load(kDeck + "*Solid Section, elset=BODY, material=steel\n,\n").mesh;
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"Body"});
 }
 
@@ -212,7 +213,7 @@ TEST(Abaqus, ARangeOfLargeStepsCostsNoMoreThanWhatItNames) {
   std::string nodes = "50, 1, 1, 1\n", sets;
   for (int k = 1000; k < 4000; ++k) nodes += std::to_string(k) + ", 2, 2, 2\n";
   for (int k = 0; k < 200; ++k) sets += "*Nset, nset=sparse, generate\n10, 4000, 40\n";
-  const TetMesh mesh = load(replaced(kDeck, "50, 1, 1, 1\n", nodes) + sets).mesh;
+  const Mesh mesh = load(replaced(kDeck, "50, 1, 1, 1\n", nodes) + sets).mesh;
   EXPECT_EQ(mesh.node_sets.at("sparse"), (std::vector<int>{0, 4}));
 }
 

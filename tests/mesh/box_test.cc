@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::box_test {
 namespace {
@@ -22,23 +23,23 @@ BoxMesh some_box(Split split) {
   return {.size = {3, 1, 0.5}, .cells = {4, 3, 2}, .origin = {-1, 2, 10}, .split = split};
 }
 
-const Vec3& node(const TetMesh& mesh, int n) { return mesh.nodes[static_cast<std::size_t>(n)]; }
+const Vec3& node(const Mesh& mesh, int n) { return mesh.nodes[static_cast<std::size_t>(n)]; }
 
 // The area of a triangle as a vector along its normal.
-Vec3 area_vector(const TetMesh& mesh, const Triangle& t) {
+Vec3 area_vector(const Mesh& mesh, const FaceCorners& t) {
   const Vec3& a = node(mesh, t[0]);
   return 0.5 * (node(mesh, t[1]) - a).cross(node(mesh, t[2]) - a);
 }
 
-double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+double area(const Mesh& mesh, const std::vector<FaceCorners>& triangles) {
   return std::accumulate(triangles.begin(), triangles.end(), 0.0,
-                         [&](double sum, const Triangle& t) { return sum + area_vector(mesh, t).norm(); });
+                         [&](double sum, const FaceCorners& t) { return sum + area_vector(mesh, t).norm(); });
 }
 
 // How many tets have the face, counted without the code under test.
-std::map<std::set<int>, int> count_faces(const TetMesh& mesh) {
+std::map<std::set<int>, int> count_faces(const Mesh& mesh) {
   std::map<std::set<int>, int> count;
-  for (const Tet& tet : mesh.tets) {
+  for (const Tet& tet : tets_of(mesh)) {
     for (int left_out : tet) {
       std::set<int> face(tet.begin(), tet.end());
       face.erase(left_out);
@@ -53,26 +54,26 @@ INSTANTIATE_TEST_SUITE_P(Splits, MakeBox, testing::Values(Split::five, Split::si
                          [](const auto& tested) { return tested.param == Split::five ? "five" : "six"; });
 
 TEST_P(MakeBox, EveryTetOfABoxHasPositiveVolume) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
-  for (const Tet& tet : mesh.tets) EXPECT_GT(signed_volume6(mesh, tet), 0);
+  const Mesh mesh = make_box(some_box(GetParam()));
+  for (const Tet& tet : tets_of(mesh)) EXPECT_GT(signed_volume6(mesh, tet), 0);
 }
 
 TEST_P(MakeBox, HasSoManyTetsPerCell) {
   const std::size_t per_cell = GetParam() == Split::five ? 5 : 6;
-  EXPECT_EQ(make_box(some_box(GetParam())).tets.size(), per_cell * 4 * 3 * 2);
+  EXPECT_EQ(make_box(some_box(GetParam())).cells.size(), per_cell * 4 * 3 * 2);
 }
 
 TEST_P(MakeBox, HasTheNodesOfAGrid) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   EXPECT_EQ(mesh.nodes.size(), 5u * 4u * 3u);
   EXPECT_EQ(mesh.nodes.front(), Vec3(-1, 2, 10));
   EXPECT_EQ(mesh.nodes.back(), Vec3(2, 3, 10.5));
 }
 
 TEST_P(MakeBox, TheVolumesSumToThatOfTheBox) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   double volume6 = 0;
-  for (const Tet& tet : mesh.tets) volume6 += signed_volume6(mesh, tet);
+  for (const Tet& tet : tets_of(mesh)) volume6 += signed_volume6(mesh, tet);
   EXPECT_NEAR(volume6 / 6, 3 * 1 * 0.5, 1e-13);
 }
 
@@ -81,7 +82,7 @@ TEST_P(MakeBox, EveryFaceBelongsToOneOrTwoTets) {
 }
 
 TEST_P(MakeBox, TheFacesOfOneTetCoverTheBoxExactly) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   double total = 0;
   for (const auto& [face, tets] : count_faces(mesh)) {
     const std::vector<int> n(face.begin(), face.end());
@@ -91,39 +92,39 @@ TEST_P(MakeBox, TheFacesOfOneTetCoverTheBoxExactly) {
 }
 
 TEST_P(MakeBox, TheSurfacesAreTheSixSides) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   std::vector<std::string> names;
   for (const auto& [name, triangles] : mesh.surfaces) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"x0", "x1", "y0", "y1", "z0", "z1"}));
 }
 
 TEST_P(MakeBox, EverySurfaceLiesInItsSideAndCoversIt) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   const std::map<std::string, double> place = {{"x0", -1}, {"x1", 2}, {"y0", 2}, {"y1", 3}, {"z0", 10}, {"z1", 10.5}};
   const double side_area[] = {1 * 0.5, 3 * 0.5, 3 * 1};
   for (const auto& [name, triangles] : mesh.surfaces) {
     const int axis = name[0] - 'x';
     EXPECT_NEAR(area(mesh, triangles), side_area[axis], 1e-13) << name;
-    for (const Triangle& t : triangles) {
+    for (const FaceCorners& t : triangles) {
       for (int n : t) EXPECT_DOUBLE_EQ(node(mesh, n)[axis], place.at(name)) << name;
     }
   }
 }
 
 TEST_P(MakeBox, TheSurfacesPointOutward) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   for (const auto& [name, triangles] : mesh.surfaces) {
     const double outward = name[1] == '0' ? -1 : 1;
-    for (const Triangle& t : triangles) {
+    for (const FaceCorners& t : triangles) {
       EXPECT_GT(outward * area_vector(mesh, t)[name[0] - 'x'], 0) << name;
     }
   }
 }
 
 TEST_P(MakeBox, EveryTetIsInTheRegionBody) {
-  const TetMesh mesh = make_box(some_box(GetParam()));
+  const Mesh mesh = make_box(some_box(GetParam()));
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"body"});
-  EXPECT_EQ(mesh.region_of, std::vector<int>(mesh.tets.size(), 0));
+  EXPECT_EQ(mesh.region_of, std::vector<int>(mesh.cells.size(), 0));
 }
 
 TEST_P(MakeBox, IsValidAtAnyScale) {
@@ -131,21 +132,21 @@ TEST_P(MakeBox, IsValidAtAnyScale) {
     BoxMesh box = some_box(GetParam());
     box.size *= scale;
     box.origin *= scale;
-    TetMesh mesh = make_box(box);
+    Mesh mesh = make_box(box);
     EXPECT_TRUE(validate(mesh, {"box"}).empty());
   }
 }
 
 TEST_P(MakeBox, ASingleCellHasTwoTrianglesPerSide) {
-  const TetMesh mesh = make_box({.split = GetParam()});
+  const Mesh mesh = make_box({.split = GetParam()});
   for (const auto& [name, triangles] : mesh.surfaces) EXPECT_EQ(triangles.size(), 2u) << name;
 }
 
 // The tets as sets of grid places (in units of cells), mirrored along `axis` if that is not -1.
 std::set<std::set<std::array<int, 3>>> grid_tets(const BoxMesh& box, int mirror) {
   std::set<std::set<std::array<int, 3>>> tets;
-  const TetMesh mesh = make_box(box);
-  for (const Tet& tet : mesh.tets) {
+  const Mesh mesh = make_box(box);
+  for (const Tet& tet : tets_of(mesh)) {
     std::set<std::array<int, 3>> corners;
     for (int n : tet) {
       std::array<int, 3> place{};

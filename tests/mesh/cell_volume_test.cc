@@ -11,6 +11,7 @@
 #include "lib/mesh/io/vtk.h"
 #include "lib/mesh/split_cells.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::cell_volume_test {
 namespace {
@@ -80,9 +81,9 @@ TEST_P(AnyElement, HasTheVolumeOfTheMapOfItsNodes) {
   EXPECT_NEAR(Element(solid, false, false, linear).volume(), A.determinant() * solid.volume, 1e-12);
 }
 
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (const Tet& tet : tets_of(mesh)) sum += signed_volume6(mesh, tet) / 6;
   return sum;
 }
 
@@ -122,14 +123,17 @@ LoadedMesh from_gmsh(int type, const std::vector<Vec3>& nodes) {
       "a.msh",
       fmt::format(
           "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} 2 0 1{}\n$EndElements\n",
-          nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())));
+          nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())),
+      FileCells::split);
 }
 
 LoadedMesh from_vtk(int type, const std::vector<Vec3>& nodes) {
-  return read_vtk_text("a.vtk", fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
-                                            "{} double\n{}CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
-                                            nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
-                                            counted_from(0, nodes.size()), type));
+  return read_vtk_text("a.vtk",
+                       fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+                                   "{} double\n{}CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
+                                   nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
+                                   counted_from(0, nodes.size()), type),
+                       FileCells::split);
 }
 
 // All nodes except a centre are nodes of the mesh; a wrong node order would fold elements or change the boundary.

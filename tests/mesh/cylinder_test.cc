@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::cylinder_test {
 namespace {
@@ -20,20 +21,20 @@ TubeMesh tube_of(int around, double grading = 1) {
   return {{.radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}}, 1};
 }
 
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) sum += cell_volume(mesh, e);
   return sum;
 }
 
-Vec3 area_vector(const TetMesh& mesh, const Triangle& t) {
+Vec3 area_vector(const Mesh& mesh, const FaceCorners& t) {
   const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
   return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
 }
 
-double area(const TetMesh& mesh, const std::string& surface) {
+double area(const Mesh& mesh, const std::string& surface) {
   double sum = 0;
-  for (const Triangle& t : mesh.surfaces.at(surface)) sum += area_vector(mesh, t).norm();
+  for (const FaceCorners& t : mesh.surfaces.at(surface)) sum += area_vector(mesh, t).norm();
   return sum;
 }
 
@@ -42,9 +43,9 @@ double polygon_area(int n, double r) { return n * r * r * std::sin(2 * kPi / n) 
 double polygon_length(int n, double r) { return 2 * n * r * std::sin(kPi / n); }
 
 // The smallest radius-ratio quality 3 r_in / r_circ of the tets, 1 for a regular one.
-double worst_quality(const TetMesh& mesh) {
+double worst_quality(const Mesh& mesh) {
   double worst = 1;
-  for (const Tet& tet : mesh.tets) {
+  for (const Tet& tet : tets_of(mesh)) {
     const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(tet[k])]; };
     Mat3 edges;
     Vec3 squares;
@@ -54,8 +55,8 @@ double worst_quality(const TetMesh& mesh) {
     }
     const double circumradius = edges.inverse().operator*(squares).norm();
     double surface = 0;
-    for (const Triangle& f : {Triangle{tet[0], tet[1], tet[2]}, Triangle{tet[0], tet[1], tet[3]},
-                              Triangle{tet[0], tet[2], tet[3]}, Triangle{tet[1], tet[2], tet[3]}}) {
+    for (const FaceCorners& f : {FaceCorners{tet[0], tet[1], tet[2]}, FaceCorners{tet[0], tet[1], tet[3]},
+                                 FaceCorners{tet[0], tet[2], tet[3]}, FaceCorners{tet[1], tet[2], tet[3]}}) {
       surface += area_vector(mesh, f).norm();
     }
     worst = std::min(worst, 3 * (signed_volume6(mesh, tet) / 2 / surface) / circumradius);
@@ -65,7 +66,7 @@ double worst_quality(const TetMesh& mesh) {
 
 TEST(Cylinder, HasExactlyTheVolumeAndAreasOfItsPolygon) {
   for (const double grading : {1.0, 0.3, 4.0}) {
-    const TetMesh mesh = make_cylinder(cylinder_of(16, grading));
+    const Mesh mesh = make_cylinder(cylinder_of(16, grading));
     EXPECT_NEAR(volume(mesh), 3 * polygon_area(16, 2), 1e-12);
     EXPECT_NEAR(area(mesh, "end0"), polygon_area(16, 2), 1e-12);
     EXPECT_NEAR(area(mesh, "end1"), polygon_area(16, 2), 1e-12);
@@ -75,7 +76,7 @@ TEST(Cylinder, HasExactlyTheVolumeAndAreasOfItsPolygon) {
 
 TEST(Tube, HasExactlyTheVolumeAndAreasOfItsPolygons) {
   for (const double grading : {1.0, 0.3, 4.0}) {
-    const TetMesh mesh = make_tube(tube_of(10, grading));
+    const Mesh mesh = make_tube(tube_of(10, grading));
     EXPECT_NEAR(volume(mesh), 3 * (polygon_area(10, 2) - polygon_area(10, 1)), 1e-12);
     EXPECT_NEAR(area(mesh, "inner"), 3 * polygon_length(10, 1), 1e-12);
     EXPECT_NEAR(area(mesh, "outer"), 3 * polygon_length(10, 2), 1e-12);
@@ -89,23 +90,23 @@ TEST(Cylinder, ItsVolumeConvergesWithSecondOrder) {
   EXPECT_LT(order, 2.1);
 }
 
-class RoundMeshes : public testing::TestWithParam<std::pair<const char*, TetMesh>> {};
+class RoundMeshes : public testing::TestWithParam<std::pair<const char*, Mesh>> {};
 
 TEST_P(RoundMeshes, AreValid) {
-  TetMesh mesh = GetParam().second;
+  Mesh mesh = GetParam().second;
   EXPECT_TRUE(validate(mesh, {"generator"}).empty());
 }
 
 // Every boundary triangle is in exactly one surface, and the area vectors of a closed surface add to 0.
 TEST_P(RoundMeshes, AreWatertight) {
-  const TetMesh& mesh = GetParam().second;
+  const Mesh& mesh = GetParam().second;
   std::size_t count = 0;
   Vec3 sum = Vec3::Zero();
   for (const auto& [name, triangles] : mesh.surfaces) {
     count += triangles.size();
-    for (const Triangle& t : triangles) sum += area_vector(mesh, t);
+    for (const FaceCorners& t : triangles) sum += area_vector(mesh, t);
   }
-  EXPECT_EQ(count, boundary_triangles(mesh).size());
+  EXPECT_EQ(count, boundary_faces(mesh).size());
   EXPECT_LT(sum.norm(), 1e-12);
 }
 
@@ -122,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Generators, RoundMeshes,
                          [](const auto& test) { return test.param.first; });
 
 TEST(Tube, GradingIsTheRatioOfOutermostToInnermostRing) {
-  const TetMesh mesh = make_tube(tube_of(8, 4));
+  const Mesh mesh = make_tube(tube_of(8, 4));
   std::vector<double> radii;
   for (int ring = 0; ring < 4; ++ring) radii.push_back(mesh.nodes[static_cast<std::size_t>(8 * ring)][0]);
   EXPECT_NEAR((radii[3] - radii[2]) / (radii[1] - radii[0]), 4, 1e-12);
@@ -143,14 +144,14 @@ TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
 
 // Includes axes that are (nearly) opposite to z.
 TEST(Cylinder, TurnedToAnyAxisItIsTheSameBody) {
-  const TetMesh upright = make_cylinder(cylinder_of(8));
+  const Mesh upright = make_cylinder(cylinder_of(8));
   for (const Vec3& axis :
        {Vec3(0, 0, -1), Vec3(1e-9, -2e-9, -1), Vec3(1e-200, 0, -3), Vec3(1, 2, -3), Vec3(0, 1e-12, 1)}) {
     CylinderMesh cylinder = cylinder_of(8);
     cylinder.axis = axis;
-    const TetMesh turned = make_cylinder(cylinder);
-    for (std::size_t e = 0; e < turned.tets.size(); ++e) {
-      EXPECT_NEAR(signed_volume6(turned, turned.tets[e]), signed_volume6(upright, upright.tets[e]), 1e-13) << axis;
+    const Mesh turned = make_cylinder(cylinder);
+    for (std::size_t e = 0; e < turned.cells.size(); ++e) {
+      EXPECT_NEAR(6 * cell_volume(turned, e), 6 * cell_volume(upright, e), 1e-13) << axis;
     }
     for (std::size_t n = 0; n < turned.nodes.size(); ++n) {
       EXPECT_NEAR(turned.nodes[n].norm(), upright.nodes[n].norm(), 1e-13) << axis;

@@ -7,15 +7,16 @@
 
 #include "lib/mesh/io/mesh_file.h"
 #include "tests/mesh/gmsh_test_file.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::gmsh_test {
 namespace {
 
 LoadedMesh load(const std::string& content) { return read_gmsh(TemporaryFile(content).path()); }
 
-void expect_same(const TetMesh& a, const TetMesh& b) {
+void expect_same(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.nodes, b.nodes);
-  EXPECT_EQ(a.tets, b.tets);
+  EXPECT_EQ(a.cells, b.cells);
   EXPECT_EQ(a.region_of, b.region_of);
   EXPECT_EQ(a.region_names, b.region_names);
   EXPECT_EQ(a.surfaces, b.surfaces);
@@ -25,11 +26,11 @@ TEST(Gmsh, ReadsNodesTetsRegionsAndSurfaces) {
   const auto [mesh, warnings, materials, cell_data] = load(kFile22);
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
-  EXPECT_EQ(mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(tets_of(mesh), (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"left", "right side"}));
   EXPECT_EQ(mesh.region_of, (std::vector<int>{0, 1}));
   ASSERT_EQ(mesh.surfaces.size(), 1u);
-  EXPECT_EQ(mesh.surfaces.at("load"), (std::vector<Triangle>{{0, 2, 1}}));
+  EXPECT_EQ(mesh.surfaces.at("load"), (std::vector<FaceCorners>{{0, 2, 1}}));
 }
 
 TEST(Gmsh, BothFormatsOfAMeshGiveTheSame) { expect_same(load(kFile22).mesh, load(kFile41).mesh); }
@@ -65,7 +66,7 @@ TEST(Gmsh, ReadsSparseAndHugeTags) {
 }
 
 TEST(Gmsh, ReadsNumbersInAnyNotation) {
-  const TetMesh mesh = load(replaced(kFile22, "2 1 0 0\n", "+2 +1.0E+00 -0 0e5\n")).mesh;
+  const Mesh mesh = load(replaced(kFile22, "2 1 0 0\n", "+2 +1.0E+00 -0 0e5\n")).mesh;
   EXPECT_EQ(mesh.nodes[1], Vec3(1, 0, 0));
 }
 
@@ -88,19 +89,19 @@ TEST(Gmsh, NamesGroupsWithoutANameByTheirTag) {
     const std::string end = "$EndPhysicalNames\n";
     std::string unnamed = file;
     unnamed.erase(begin, file.find(end) + end.size() - begin);
-    const TetMesh mesh = load(unnamed).mesh;
+    const Mesh mesh = load(unnamed).mesh;
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"volume1", "volume2"}));
     EXPECT_TRUE(mesh.surfaces.contains("surface5"));
   }
 }
 
 TEST(Gmsh, KeepsQuotesAndBlanksInNames) {
-  const TetMesh mesh = load(replaced(kFile22, "\"right side\"", "\"a \"b\" c\" ")).mesh;
+  const Mesh mesh = load(replaced(kFile22, "\"right side\"", "\"a \"b\" c\" ")).mesh;
   EXPECT_EQ(mesh.region_names[1], "a \"b\" c");
 }
 
 TEST(Gmsh, VolumesOfTheSameNameAreOneRegion) {
-  const TetMesh mesh = load(replaced(kFile22, "\"right side\"", "\"left\"")).mesh;
+  const Mesh mesh = load(replaced(kFile22, "\"right side\"", "\"left\"")).mesh;
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"left"});
   EXPECT_EQ(mesh.region_of, (std::vector<int>{0, 0}));
 }
@@ -156,7 +157,7 @@ TEST(Gmsh, WarnsOfNodesThatNoElementUses) {
 }
 
 TEST(Gmsh, ATriangleBelongsToAllPhysicalSurfacesOfItsEntity) {
-  const TetMesh mesh = load(replaced(kFile41, "1 0 1 5 1 1", "1 0 2 5 6 1 1")).mesh;
+  const Mesh mesh = load(replaced(kFile41, "1 0 1 5 1 1", "1 0 2 5 6 1 1")).mesh;
   EXPECT_EQ(mesh.surfaces.at("load"), mesh.surfaces.at("surface6"));
 }
 
@@ -173,20 +174,20 @@ TEST(Gmsh, PhysicalPointsBecomeNodeSets) {
 TEST(Gmsh, ANegativePhysicalTagTurnsInnerTrianglesOver) {
   const std::string inner = replaced(kFile41, "\n3 1 3 2\n", "\n3 2 3 4\n");
   const std::string reversed = replaced(inner, "1 0 1 5 1 1", "1 0 1 -5 1 1");
-  EXPECT_EQ(load(inner).mesh.surfaces.at("load"), (std::vector<Triangle>{{1, 2, 3}}));
-  EXPECT_EQ(load(reversed).mesh.surfaces.at("load"), (std::vector<Triangle>{{1, 3, 2}}));
+  EXPECT_EQ(load(inner).mesh.surfaces.at("load"), (std::vector<FaceCorners>{{1, 2, 3}}));
+  EXPECT_EQ(load(reversed).mesh.surfaces.at("load"), (std::vector<FaceCorners>{{1, 3, 2}}));
 }
 
 TEST(Gmsh, TurnsBoundaryTrianglesOutward) {
-  const TetMesh mesh = load(replaced(kFile22, "1 1 3 2\n", "1 1 2 3\n")).mesh;
-  EXPECT_EQ(mesh.surfaces.at("load"), (std::vector<Triangle>{{0, 2, 1}}));
+  const Mesh mesh = load(replaced(kFile22, "1 1 3 2\n", "1 1 2 3\n")).mesh;
+  EXPECT_EQ(mesh.surfaces.at("load"), (std::vector<FaceCorners>{{0, 2, 1}}));
 }
 
 TEST(Gmsh, ReadsFormat41WithoutEntitiesAsOneBody) {
   std::string file = kFile41;
   const std::string end = "$EndEntities\n";
   file.erase(file.find("$Entities"), file.find(end) + end.size() - file.find("$Entities"));
-  const TetMesh mesh = load(file).mesh;
+  const Mesh mesh = load(file).mesh;
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"body"});
   EXPECT_TRUE(mesh.surfaces.empty());
 }

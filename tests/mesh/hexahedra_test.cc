@@ -10,8 +10,9 @@
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/io/vtk.h"
 #include "lib/mesh/io/vtu.h"
-#include "lib/mesh/tet_faces.h"
+#include "lib/mesh/mesh_faces.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::hexahedra_test {
 namespace {
@@ -214,26 +215,26 @@ CUBIC
 struct Format {
   const char* name;
   const std::string* text;
-  LoadedMesh (*read)(const std::string& path, std::string_view text);
+  LoadedMesh (*read)(const std::string& path, std::string_view text, FileCells cells);
   bool has_surfaces;
 };
 
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) sum += cell_volume(mesh, e);
   return sum;
 }
 
-std::set<std::set<int>> sets_of(const std::vector<Tet>& tets) {
+std::set<std::set<int>> sets_of(const Mesh& mesh) {
   std::set<std::set<int>> out;
-  for (const Tet& tet : tets) out.insert({tet.begin(), tet.end()});
+  for (const Tet& tet : tets_of(mesh)) out.insert({tet.begin(), tet.end()});
   return out;
 }
 
 // The area of triangles, which must all lie in the plane where coordinate i is x.
-double area_in_plane(const TetMesh& mesh, const std::string& surface, Eigen::Index i, double x) {
+double area_in_plane(const Mesh& mesh, const std::string& surface, Eigen::Index i, double x) {
   double sum = 0;
-  for (const Triangle& t : mesh.surfaces.at(surface)) {
+  for (const FaceCorners& t : mesh.surfaces.at(surface)) {
     const auto node = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     for (const std::size_t k : {0u, 1u, 2u}) EXPECT_EQ(node(k)[i], x);
     sum += (node(1) - node(0)).cross(node(2) - node(0)).norm() / 2;
@@ -243,21 +244,21 @@ double area_in_plane(const TetMesh& mesh, const std::string& surface, Eigen::Ind
 
 class InAnyFormat : public testing::TestWithParam<Format> {
  protected:
-  static LoadedMesh load() { return GetParam().read("cells", *GetParam().text); }
+  static LoadedMesh load() { return GetParam().read("cells", *GetParam().text, FileCells::keep_quadratic); }
 };
 
 TEST_P(InAnyFormat, TheMeshIsTheSame) {
   const LoadedMesh loaded = load();
   EXPECT_NEAR(volume(loaded.mesh), 2, 1e-15);
-  EXPECT_EQ(boundary_triangles(loaded.mesh).size(), 20u);
+  EXPECT_EQ(boundary_faces(loaded.mesh).size(), 20u);
   EXPECT_EQ(loaded.mesh.cell_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2}));
   EXPECT_EQ(loaded.mesh.region_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(sets_of(loaded.mesh.tets), sets_of(read_gmsh_text("cells", kGmsh22).mesh.tets));
+  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_gmsh_text("cells", kGmsh22).mesh));
   EXPECT_EQ(loaded.warnings.back(), "cells: 1 hexahedron and 2 wedges are split into 12 tetrahedra");
 }
 
 TEST_P(InAnyFormat, QuadrilateralsOfASurfaceBecomeTriangles) {
-  const TetMesh mesh = load().mesh;
+  const Mesh mesh = load().mesh;
   if (!GetParam().has_surfaces) {
     EXPECT_TRUE(mesh.surfaces.empty());
     return;
@@ -291,12 +292,12 @@ TEST(Hexahedra, CubesOfVegaAreSplit) {
 // The normal of a wedge's base is outward in VTK's manual, inward in some files.
 TEST(Hexahedra, WedgesOfVtkMayCountEitherWay) {
   const std::string inward = replaced(replaced(kVtk, "5 10 11 1 8 9", "1 8 9 5 10 11"), "5 11 6 1 9 2", "1 9 2 5 11 6");
-  EXPECT_EQ(read_vtk_text("cells", inward).mesh.tets, read_vtk_text("cells", kVtk).mesh.tets);
+  EXPECT_EQ(read_vtk_text("cells", inward).mesh.cells, read_vtk_text("cells", kVtk).mesh.cells);
 }
 
 TEST(Hexahedra, VoxelsCountTheirNodesRowByRow) {
   const std::string voxel = replaced(replaced(kVtk, "8 0 1 2 3 4 5 6 7", "8 0 1 3 2 4 5 7 6"), "9 12", "8 11");
-  EXPECT_EQ(read_vtk_text("cells", voxel).mesh.tets, read_vtk_text("cells", kVtk).mesh.tets);
+  EXPECT_EQ(read_vtk_text("cells", voxel).mesh.cells, read_vtk_text("cells", kVtk).mesh.cells);
 }
 
 TEST(Hexahedra, EveryTetHasTheCellDataOfItsElement) {
@@ -314,13 +315,13 @@ TEST(Hexahedra, PyramidsAreRead) {
   const LoadedMesh abaqus = read_abaqus_text(
       "p.inp", "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D5, ELSET=all\n1, 1, 2, 3, 4, 5\n*SURFACE, NAME=side\nall, S2\n");
   EXPECT_NEAR(volume(abaqus.mesh), 1, 1e-15);
-  EXPECT_EQ(sets_of(abaqus.mesh.tets), (std::set<std::set<int>>{{0, 1, 2, 4}, {0, 2, 3, 4}}));
-  EXPECT_EQ(abaqus.mesh.surfaces.at("side"), (std::vector<Triangle>{{0, 1, 4}}));
+  EXPECT_EQ(sets_of(abaqus.mesh), (std::set<std::set<int>>{{0, 1, 2, 4}, {0, 2, 3, 4}}));
+  EXPECT_EQ(abaqus.mesh.surfaces.at("side"), (std::vector<FaceCorners>{{0, 1, 4}}));
   const LoadedMesh vtk = read_vtk_text(
       "p.vtk",
       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 3\n"
       "CELLS 1 6\n5 0 1 2 3 4\nCELL_TYPES 1\n14\n");
-  EXPECT_EQ(vtk.mesh.tets, abaqus.mesh.tets);
+  EXPECT_EQ(vtk.mesh.cells, abaqus.mesh.cells);
 }
 
 TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
@@ -328,7 +329,7 @@ TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
       replaced(replaced(kAbaqus, "C3D6", "C3D8"), "6, 2, 9, 10, 6, 11, 12\n7, 2, 10, 3, 6, 12, 7",
                "6, 2, 9, 10, 10, 6, 11, 12, 12\n7, 2, 10, 3, 3, 6, 12, 7, 7");
   const LoadedMesh loaded = read_abaqus_text("cells", replaced(collapsed, "right, S2\n", "6, S2\n7, S2\n"));
-  EXPECT_EQ(sets_of(loaded.mesh.tets), sets_of(read_abaqus_text("cells", kAbaqus).mesh.tets));
+  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_abaqus_text("cells", kAbaqus).mesh));
   EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 4u);
 }
 

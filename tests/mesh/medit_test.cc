@@ -43,9 +43,9 @@ LoadedMesh load(const std::string& text) { return read_medit_text("body.mesh", t
 std::string refusal(const std::string& text) {
   return refusal_of([&] { load(text); });
 }
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) sum += cell_volume(mesh, e);
   return sum;
 }
 
@@ -79,12 +79,12 @@ TEST(Medit, QuadraticTetrahedraHaveTheirMiddleNodesOnTheirEdges) {
       "MeshVersionFormatted 2\nDimension 3\nVertices 10\n0 0 0 0\n2 0 0 0\n0 2 0 0\n0 0 2 0\n1 0 0 0\n"
       "1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n0 1 1 0\nTetrahedraP2 1\n1 2 3 4 ";
   for (const char* middles : {"5 6 7 8 9 10", "5 6 7 8 10 9"}) {
-    const TetMesh mesh = load(head + middles + " 1\nEnd\n").mesh;
+    const Mesh mesh = load(head + middles + " 1\nEnd\n").mesh;
     ASSERT_EQ(mesh.order(), 2);
     for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
       const auto node = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
-      const Vec3 half = 0.5 * (node(mesh.tets[0][kTetEdges[e][0]]) + node(mesh.tets[0][kTetEdges[e][1]]));
-      EXPECT_EQ(node(mesh.midsides[0][e]), half) << middles;
+      const Vec3 half = 0.5 * (node(mesh.cells[0][kTetEdges[e][0]]) + node(mesh.cells[0][kTetEdges[e][1]]));
+      EXPECT_EQ(node(mesh.cells[0][4 + e]), half) << middles;
     }
   }
 }

@@ -9,15 +9,15 @@
 namespace orthodyn::mesh_point_test {
 namespace {
 
-TetMesh box_of_order(int order) {
-  TetMesh mesh = make_box({.size = {2, 1, 1}, .cells = {3, 2, 1}});
+Mesh box_of_order(int order) {
+  Mesh mesh = make_box({.size = {2, 1, 1}, .cells = {3, 2, 1}});
   if (order == 2) make_quadratic(mesh);
   return mesh;
 }
 
 // Interpolates nodal values of a field at a mesh point.
 template <class Field>
-double at(const TetMesh& mesh, const Vec3& place, const Field& field) {
+double at(const Mesh& mesh, const Vec3& place, const Field& field) {
   double sum = 0;
   for (const auto& [node, weight] : mesh_point(mesh, place).nodes)
     sum += weight * field(mesh.nodes[static_cast<std::size_t>(node)]);

@@ -31,7 +31,7 @@ std::string content_of(const std::string& name) {
 
 struct Format {
   const char* seed;  // a file of tests/mesh/data
-  std::function<void(const std::string& path, std::string_view text)> read;
+  std::function<void(const std::string& path, std::string_view text, FileCells cells)> read;
 };
 
 class AnyMutation : public testing::TestWithParam<Format> {};
@@ -41,10 +41,11 @@ TEST_P(AnyMutation, LoadsOrIsRefused) {
   std::mt19937 random(20240229);  // its sequence is fixed by the standard
   int loaded = 0;
   constexpr int kFiles = 500;
+  constexpr FileCells kCells[] = {FileCells::keep_quadratic, FileCells::keep, FileCells::split};
   for (int i = 0; i < kFiles; ++i) {
     const std::string content = with_mutated_bytes(seed, random);
     try {
-      GetParam().read("beam", content);
+      GetParam().read("beam", content, kCells[i % 3]);
       ++loaded;
     } catch (const ConfigError& error) {
       EXPECT_TRUE(std::string(error.what()).starts_with("beam")) << error.what();
@@ -57,14 +58,14 @@ TEST_P(AnyMutation, LoadsOrIsRefused) {
 }
 
 // Two of the three files stay unchanged.
-void read_damaged_nodes(const std::string& stem, std::string_view node) {
+void read_damaged_nodes(const std::string& stem, std::string_view node, FileCells) {
   read_tetgen_text(stem, {node, content_of("cube.ele"), content_of("cube.face")});
 }
-void read_damaged_elements(const std::string& stem, std::string_view ele) {
+void read_damaged_elements(const std::string& stem, std::string_view ele, FileCells) {
   read_tetgen_text(stem, {content_of("cube.node"), ele, content_of("cube.face")});
 }
 
-void read_damaged_quadratic_elements(const std::string& stem, std::string_view ele) {
+void read_damaged_quadratic_elements(const std::string& stem, std::string_view ele, FileCells) {
   read_tetgen_text(stem, {content_of("cube_o2.node"), ele, content_of("cube_o2.face")});
 }
 

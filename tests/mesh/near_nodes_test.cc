@@ -11,7 +11,7 @@ namespace orthodyn::near_nodes_test {
 namespace {
 
 TEST(NearNodes, FindTheNearestWithinTheDistanceOrNone) {
-  const TetMesh mesh = make_box({.size = {1, 2, 3}, .cells = {3, 4, 5}});
+  const Mesh mesh = make_box({.size = {1, 2, 3}, .cells = {3, 4, 5}});
   const NearNodes near(mesh);
   Random random(401);
   int found = 0;
@@ -29,7 +29,7 @@ TEST(NearNodes, FindTheNearestWithinTheDistanceOrNone) {
 }
 
 TEST(NearNodes, FindANodeAtItsVeryPlace) {
-  const TetMesh mesh = make_box({.cells = {2, 2, 2}});
+  const Mesh mesh = make_box({.cells = {2, 2, 2}});
   const NearNodes near(mesh);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) EXPECT_EQ(near.within(0, mesh.nodes[i]), static_cast<int>(i));
 }

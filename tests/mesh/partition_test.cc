@@ -9,33 +9,29 @@ namespace orthodyn::partition_test {
 namespace {
 
 // A row of cubes of six tetrahedra each.
-TetMesh row_of_cubes(int cubes) {
+Mesh row_of_cubes(int cubes) {
   return make_box({.size = Vec3(cubes, 1, 1), .cells = {cubes, 1, 1}, .split = BoxMesh::Split::six});
 }
 
-int cube_of(const TetMesh& mesh, std::size_t cell) {
-  double x = 0;
-  for (const int node : mesh.tets[cell]) x += mesh.nodes[static_cast<std::size_t>(node)].x() / 4;
-  return static_cast<int>(x);
-}
+int cube_of(const Mesh& mesh, std::size_t cell) { return static_cast<int>(centroid(mesh, static_cast<int>(cell)).x()); }
 
-std::vector<int> one_part_a_cube(const TetMesh& mesh) {
+std::vector<int> one_part_a_cube(const Mesh& mesh) {
   std::vector<int> part;
-  for (std::size_t cell = 0; cell < mesh.tets.size(); ++cell) part.push_back(cube_of(mesh, cell));
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) part.push_back(cube_of(mesh, cell));
   return part;
 }
 
 TEST(Partition, CellsThatShareAFaceAreNeighbours) {
-  const TetMesh mesh = row_of_cubes(2);
-  const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.tets.size());
-  ASSERT_EQ(graph.start.size(), mesh.tets.size() + 1);
+  const Mesh mesh = row_of_cubes(2);
+  const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.cells.size());
+  ASSERT_EQ(graph.start.size(), mesh.cells.size() + 1);
   int across = 0;
-  for (std::size_t cell = 0; cell < mesh.tets.size(); ++cell)
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
     for (int k = graph.start[cell]; k < graph.start[cell + 1]; ++k) {
       const auto neighbour = static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(k)]);
       int shared = 0;
-      for (const int a : mesh.tets[cell])
-        for (const int b : mesh.tets[neighbour]) shared += a == b ? 1 : 0;
+      for (const int a : mesh.cells[cell])
+        for (const int b : mesh.cells[neighbour]) shared += a == b ? 1 : 0;
       EXPECT_EQ(shared, 3);
       across += cube_of(mesh, cell) != cube_of(mesh, neighbour) ? 1 : 0;
     }
@@ -44,7 +40,7 @@ TEST(Partition, CellsThatShareAFaceAreNeighbours) {
 }
 
 TEST(Partition, FiguresOfARowOfCubesAreThoseOfItsFaces) {
-  const TetMesh mesh = row_of_cubes(3);
+  const Mesh mesh = row_of_cubes(3);
   const auto figures = part_sizes(mesh, one_part_a_cube(mesh), 3);
   ASSERT_EQ(figures.size(), 3u);
   long owned = 0, copies = 0, copied = 0;
@@ -62,8 +58,8 @@ TEST(Partition, FiguresOfARowOfCubesAreThoseOfItsFaces) {
 }
 
 TEST(Partition, PartsWithoutCellsHaveNothing) {
-  const TetMesh mesh = row_of_cubes(1);
-  const auto figures = part_sizes(mesh, std::vector<int>(mesh.tets.size(), 1), 3);
+  const Mesh mesh = row_of_cubes(1);
+  const auto figures = part_sizes(mesh, std::vector<int>(mesh.cells.size(), 1), 3);
   for (const std::size_t empty : {0u, 2u}) {
     EXPECT_EQ(figures[empty].cells + figures[empty].owned + figures[empty].copies + figures[empty].copied, 0);
     EXPECT_EQ(figures[empty].neighbours, 0);

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "lib/config/registry.h"
-#include "lib/element/tet10.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/io/mesh_file.h"
@@ -19,8 +18,8 @@
 namespace orthodyn::quadratic_test {
 namespace {
 
-TetMesh quadratic_box() {
-  TetMesh mesh = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
+Mesh quadratic_box() {
+  Mesh mesh = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
   mesh.node_sets["left"] = {};
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (mesh.nodes[n][0] == 0) mesh.node_sets["left"].push_back(static_cast<int>(n));
@@ -28,33 +27,27 @@ TetMesh quadratic_box() {
   return mesh;
 }
 
-std::string refusal(TetMesh mesh) {
+std::string refusal(Mesh mesh) {
   return refusal_of([&] { validate(mesh, {"beam"}); });
 }
 
-double volume(const TetMesh& mesh) {
-  const Cells cells = tet_cells(mesh);
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    ElementNodes<10> X;
-    for (Eigen::Index a = 0; a < 10; ++a)
-      X.col(a) = mesh.nodes[static_cast<std::size_t>(cells[c][static_cast<std::size_t>(a)])];
-    sum += Tet10::mass(X, 1);
-  }
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) sum += cell_volume(mesh, c);
   return sum;
 }
 
 TEST(Quadratic, OfALinearMeshHasANodeHalfWayOnEachEdge) {
-  TetMesh mesh = quadratic_box();
+  Mesh mesh = quadratic_box();
   EXPECT_EQ(mesh.order(), 2);
-  const TetMesh linear = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
+  const Mesh linear = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
   std::set<std::pair<int, int>> edges;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+  for (std::size_t t = 0; t < mesh.cells.size(); ++t)
     for (std::size_t e = 0; e < 6; ++e) {
-      const int a = mesh.tets[t][kTetEdges[e][0]], b = mesh.tets[t][kTetEdges[e][1]];
+      const int a = mesh.cells[t][kTetEdges[e][0]], b = mesh.cells[t][kTetEdges[e][1]];
       edges.insert(std::minmax(a, b));
       const auto at = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
-      EXPECT_EQ(at(mesh.midsides[t][e]), Vec3((at(a) + at(b)) / 2));
+      EXPECT_EQ(at(mesh.cells[t][4 + e]), Vec3((at(a) + at(b)) / 2));
     }
   EXPECT_EQ(mesh.nodes.size(), linear.nodes.size() + edges.size());
   EXPECT_TRUE(validate(mesh, {"box"}).empty());
@@ -62,37 +55,37 @@ TEST(Quadratic, OfALinearMeshHasANodeHalfWayOnEachEdge) {
 }
 
 TEST(Quadratic, SetsOfNodesGetTheMiddlesBetweenThem) {
-  const TetMesh mesh = quadratic_box();
+  const Mesh mesh = quadratic_box();
   std::size_t left = 0;
   for (const Vec3& x : mesh.nodes) left += x[0] == 0;
   EXPECT_EQ(mesh.node_sets.at("left").size(), left);
 }
 
 TEST(Quadratic, FacesHaveTheNodesOnTheirEdges) {
-  const TetMesh mesh = quadratic_box();
+  const Mesh mesh = quadratic_box();
   const Cells faces = face_cells(mesh, mesh.surfaces.at("x0"));
-  ASSERT_EQ(faces.nodes_per_cell(), 6);
+  for (const CellShape shape : faces.shapes()) ASSERT_EQ(shape, CellShape::tri6);
   const auto at = [&](std::size_t face, std::size_t a) { return mesh.nodes[static_cast<std::size_t>(faces[face][a])]; };
   for (std::size_t face = 0; face < faces.size(); ++face)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(at(face, 3 + k), Vec3((at(face, k) + at(face, (k + 1) % 3)) / 2));
 }
 
 TEST(Quadratic, MadeLinearAgainIsTheMeshOfBefore) {
-  TetMesh mesh = quadratic_box();
+  Mesh mesh = quadratic_box();
   make_linear(mesh);
-  const TetMesh linear = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
+  const Mesh linear = make_box({.size = {1, 2, 3}, .cells = {2, 1, 1}});
   EXPECT_EQ(mesh.order(), 1);
   EXPECT_EQ(mesh.nodes, linear.nodes);
-  EXPECT_EQ(mesh.tets, linear.tets);
+  EXPECT_EQ(mesh.cells, linear.cells);
   EXPECT_EQ(mesh.surfaces, linear.surfaces);
   for (const int n : mesh.node_sets.at("left")) EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)][0], 0);
   EXPECT_EQ(mesh.node_sets.at("left").size(), 4u);
 }
 
 TEST(Quadratic, MadeLinearTellsTheNodeSetsThatItEmpties) {
-  TetMesh mesh = quadratic_box();
-  mesh.node_sets["middle"] = {mesh.midsides[0][0], mesh.midsides[0][1]};
-  mesh.node_sets["both"] = {mesh.midsides[0][0], mesh.tets[0][0]};
+  Mesh mesh = quadratic_box();
+  mesh.node_sets["middle"] = {mesh.cells[0][4], mesh.cells[0][5]};
+  mesh.node_sets["both"] = {mesh.cells[0][4], mesh.cells[0][0]};
   mesh.node_sets["empty before"] = {};
   EXPECT_EQ(make_linear(mesh), std::vector<std::string>{"middle"});
   EXPECT_TRUE(mesh.node_sets.at("middle").empty());
@@ -101,8 +94,8 @@ TEST(Quadratic, MadeLinearTellsTheNodeSetsThatItEmpties) {
 
 TEST(QuadraticFiles, WarnOfNodeSetsThatAreEmptyWithOrderOne) {
   const TemporaryFolder folder;
-  TetMesh mesh = quadratic_box();
-  mesh.node_sets["middle"] = {mesh.midsides[0][0]};
+  Mesh mesh = quadratic_box();
+  mesh.node_sets["middle"] = {mesh.cells[0][4]};
   write_mesh({.mesh = mesh}, folder.path("box.inp"), false);
   const auto warnings = [&](const std::string& more) {
     const Config config = Config::from_text("{type: file, file: " + folder.path("box.inp") + more + "}");
@@ -116,37 +109,41 @@ TEST(QuadraticFiles, WarnOfNodeSetsThatAreEmptyWithOrderOne) {
 // A curved mesh with mid-edge nodes far from the midpoints.
 TEST(QuadraticFiles, OfTetgenKeepACurvedMesh) {
   const TemporaryFolder folder;
-  const TetMesh tube =
+  const Mesh tube =
       make_tube({{.radius = 1, .length = 0.5, .cells = {.around = 8, .through = 1, .along = 1}, .order = 2}, 0.9});
   write_mesh({.mesh = tube}, folder.path("tube.node"), false);
-  EXPECT_EQ(read_mesh(folder.path("tube.node")).mesh.midsides, tube.midsides);
+  EXPECT_EQ(read_mesh(folder.path("tube.node")).mesh.cells, tube.cells);
 }
 
 TEST(Quadratic, TwoNodesOnOneEdgeAreRefused) {
-  TetMesh mesh = quadratic_box();
-  mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(mesh.midsides[0][0])] + Vec3(0, 0, 1e-3));
-  mesh.midsides[0][0] = static_cast<int>(mesh.nodes.size()) - 1;
+  Mesh mesh = quadratic_box();
+  mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(mesh.cells[0][4])] + Vec3(0, 0, 1e-3));
+  mesh.cells.nodes_of(0)[4] = static_cast<int>(mesh.nodes.size()) - 1;
   EXPECT_CONTAINS(refusal(mesh), "elements must share all nodes of a common edge");
 }
 
 TEST(Quadratic, ACornerOnAnEdgeIsRefused) {
-  TetMesh mesh = quadratic_box();
-  mesh.midsides[0][0] = mesh.tets[0][2];
+  Mesh mesh = quadratic_box();
+  mesh.cells.nodes_of(0)[4] = mesh.cells[0][2];
   EXPECT_CONTAINS(refusal(mesh), "elements must share all nodes of a common edge");
 }
 
 TEST(Quadratic, AnElementThatItsEdgesFoldOverIsRefusedByName) {
-  TetMesh mesh = quadratic_box();
-  const auto& tet = mesh.tets[3];
-  auto& middle = mesh.nodes[static_cast<std::size_t>(mesh.midsides[3][0])];
+  Mesh mesh = quadratic_box();
+  const auto tet = mesh.cells[3];
+  auto& middle = mesh.nodes[static_cast<std::size_t>(tet[4])];
   const auto at = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
   middle = 0.1 * at(tet[0]) + 0.9 * at(tet[1]);  // beyond a quarter the map turns over at the corner
   EXPECT_CONTAINS(refusal(mesh), "its curved edges fold it over");
 }
 
 TEST(Quadratic, MixedOrdersAreRefused) {
-  TetMesh mesh = quadratic_box();
-  mesh.midsides.pop_back();
+  Mesh mesh = quadratic_box();
+  const std::size_t last = mesh.cells.size() - 1;
+  Cells mixed;
+  for (std::size_t c = 0; c < last; ++c) mixed.add(CellShape::tet10, mesh.cells[c]);
+  mixed.add(CellShape::tet4, mesh.cells.corners(last));
+  mesh.cells = mixed;
   EXPECT_CONTAINS(refusal(mesh), "all must be of one order");
 }
 
@@ -155,13 +152,12 @@ INSTANTIATE_TEST_SUITE_P(Formats, QuadraticFiles, testing::Values(".msh", ".msh2
 
 TEST_P(QuadraticFiles, KeepNodesElementsAndFaces) {
   const TemporaryFolder folder;
-  TetMesh mesh = quadratic_box();
+  Mesh mesh = quadratic_box();
   const std::string path = folder.path(std::string("mesh") + GetParam());
   write_mesh({.mesh = mesh}, path, false);
-  const TetMesh read = read_mesh(path).mesh;
+  const Mesh read = read_mesh(path).mesh;
   EXPECT_EQ(read.nodes, mesh.nodes);
-  EXPECT_EQ(read.tets, mesh.tets);
-  EXPECT_EQ(read.midsides, mesh.midsides);
+  EXPECT_EQ(read.cells, mesh.cells);
   if (!read.surfaces.empty()) {
     EXPECT_EQ(read.surfaces.size(), mesh.surfaces.size());
   }
@@ -176,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Gmsh, Octant,
                          testing::Values("octant_22.msh", "octant_41.msh", "octant_gmsh.inp", "octant_gmsh.vtk"));
 
 TEST_P(Octant, IsRound) {
-  const TetMesh mesh = read_mesh(data(GetParam())).mesh;
+  const Mesh mesh = read_mesh(data(GetParam())).mesh;
   EXPECT_EQ(mesh.order(), 2);
   EXPECT_EQ(mesh.nodes.size(), 150u);
   EXPECT_NEAR(volume(mesh), std::numbers::pi / 6, 1e-3);
@@ -194,15 +190,15 @@ INSTANTIATE_TEST_SUITE_P(Gmsh, Tube,
                                          "tube_wedges_gmsh.vtk"));
 
 TEST_P(Tube, IsRoundIfItsElementsAreSplit) {
-  const LoadedMesh loaded = read_mesh(data(GetParam()));
-  const TetMesh& mesh = loaded.mesh;
+  const LoadedMesh loaded = read_mesh(data(GetParam()), FileCells::split);
+  const Mesh& mesh = loaded.mesh;
   EXPECT_EQ(mesh.order(), 2);
   EXPECT_NEAR(volume(mesh), std::numbers::pi * 3 / 4, 1e-3);
   const auto says = [](const std::string& warning) {
     return warning.find("quadratic tetrahedra") != std::string::npos;
   };
   EXPECT_TRUE(std::any_of(loaded.warnings.begin(), loaded.warnings.end(), says));
-  const Cells faces = face_cells(mesh, boundary_triangles(mesh));
+  const Cells faces = face_cells(mesh, boundary_faces(mesh));
   for (const int n : faces.nodes()) {  // on edges of 30 degrees; by chords a middle would be 3.4 % too far inside
     const Vec3& x = mesh.nodes[static_cast<std::size_t>(n)];
     const double radius = std::hypot(x[0], x[1]);
@@ -214,7 +210,7 @@ TEST_P(Tube, IsRoundIfItsElementsAreSplit) {
 }
 
 TEST(QuadraticFiles, OfTetgenAreRead) {
-  const TetMesh mesh = read_mesh(data("cube_o2.ele")).mesh;
+  const Mesh mesh = read_mesh(data("cube_o2.ele")).mesh;
   EXPECT_EQ(mesh.order(), 2);
   EXPECT_NEAR(volume(mesh), 1, 1e-14);
   EXPECT_EQ(mesh.surfaces.size(), 6u);
@@ -230,20 +226,21 @@ TEST(QuadraticFiles, OfVegaAreNot) {
 TEST(QuadraticFiles, OfTetgenMayListTheNodesOnEdgesInAnyOrder) {
   const std::string node =
       "10 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 .5 0\n6 .5 0 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n";
-  const TetMesh mesh = read_tetgen_text("t", {node, "1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n", ""}).mesh;
-  EXPECT_EQ(mesh.midsides.at(0), (Midsides{5, 4, 6, 7, 9, 8}));
+  const Mesh mesh = read_tetgen_text("t", {node, "1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n", ""}).mesh;
+  const auto nodes = mesh.cells[0];
+  EXPECT_EQ(std::vector<int>(nodes.begin(), nodes.end()), (std::vector<int>{0, 1, 2, 3, 5, 4, 6, 7, 9, 8}));
 }
 
 // A polygon of 16 corners has 97.4 % of the area of its circle.
 TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
-  TetMesh cylinder = make_cylinder({.radius = 1, .length = 2, .cells = {.around = 16, .along = 2}, .order = 2});
-  TetMesh tube =
+  Mesh cylinder = make_cylinder({.radius = 1, .length = 2, .cells = {.around = 16, .along = 2}, .order = 2});
+  Mesh tube =
       make_tube({{.radius = 1, .length = 2, .cells = {.around = 12, .through = 1, .along = 2}, .order = 2}, 0.9});
   EXPECT_TRUE(validate(cylinder, {"cylinder"}).empty());
   EXPECT_TRUE(validate(tube, {"tube"}).empty());
   EXPECT_NEAR(volume(cylinder), 2 * std::numbers::pi, 1e-3);
   EXPECT_NEAR(volume(tube), 2 * std::numbers::pi * 0.19, 1e-3);
-  const auto lies_on = [](const TetMesh& mesh, const std::string& surface, double radius) {
+  const auto lies_on = [](const Mesh& mesh, const std::string& surface, double radius) {
     const Cells faces = face_cells(mesh, mesh.surfaces.at(surface));
     for (const int n : faces.nodes())
       EXPECT_NEAR(mesh.nodes[static_cast<std::size_t>(n)].head<2>().norm(), radius, 1e-14);
@@ -252,9 +249,9 @@ TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   lies_on(tube, "outer", 1);
   lies_on(tube, "inner", 0.9);
   // The coarsest mesh, with a core of one cell: no element is folded.
-  const TetMesh four =
+  const Mesh four =
       make_cylinder({.radius = 1, .length = 2, .cells = {.around = 4, .through = 1, .along = 1}, .order = 2});
-  const TetMesh three =
+  const Mesh three =
       make_tube({{.radius = 1, .length = 2, .cells = {.around = 3, .through = 1, .along = 1}, .order = 2}, 0.3});
   lies_on(four, "outer", 1);
   EXPECT_NEAR(volume(four), 2 * std::numbers::pi, 0.2);

@@ -14,15 +14,15 @@
 namespace orthodyn::refine_test {
 namespace {
 
-double volume(const TetMesh& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) sum += cell_volume(mesh, e);
   return sum;
 }
 
-double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+double area(const Mesh& mesh, const std::vector<FaceCorners>& triangles) {
   double sum = 0;
-  for (const Triangle& t : triangles) {
+  for (const FaceCorners& t : triangles) {
     const auto x = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     sum += (x(1) - x(0)).cross(x(2) - x(0)).norm() / 2;
   }
@@ -32,13 +32,13 @@ double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
 // A mesh with displaced inner nodes, two regions, a node set and cell data.
 LoadedMesh distorted() {
   LoadedMesh loaded{.mesh = make_box({.size = {2, 1, 1}, .cells = {3, 2, 2}, .split = BoxMesh::Split::six})};
-  TetMesh& mesh = loaded.mesh;
+  Mesh& mesh = loaded.mesh;
   Random random(521);
   for (Vec3& x : mesh.nodes)
     if (x[0] > 0.1 && x[0] < 1.9) x[0] += 0.1 * random.between(-1, 1);
   mesh.region_names = {"a", "b"};
   CellData axis{.name = "number", .components = 2};
-  for (std::size_t k = 0; k < mesh.tets.size(); ++k) {
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
     mesh.region_of[k] = k % 3 == 0;
     axis.values.push_back(static_cast<double>(k));
     axis.values.push_back(-static_cast<double>(k));
@@ -57,22 +57,22 @@ TEST_P(Refinement, IsAValidMeshOfEightTimesAsManyCells) {
   if (GetParam() == 2) make_quadratic(loaded.mesh);
   const LoadedMesh before = loaded;
   refine(loaded);
-  TetMesh& mesh = loaded.mesh;
+  Mesh& mesh = loaded.mesh;
   EXPECT_EQ(mesh.order(), GetParam());
-  ASSERT_EQ(mesh.tets.size(), 8 * before.mesh.tets.size());
+  ASSERT_EQ(mesh.cells.size(), 8 * before.mesh.cells.size());
   EXPECT_TRUE(validate(mesh, {.source = "refined"}).empty());  // conforming, positive, no node too many
   EXPECT_NEAR(volume(mesh), volume(before.mesh), 1e-13);
-  for (std::size_t k = 0; k < before.mesh.tets.size(); ++k) {
+  for (std::size_t k = 0; k < before.mesh.cells.size(); ++k) {
     double sum = 0;
     for (std::size_t i = 8 * k; i < 8 * k + 8; ++i) {
       EXPECT_EQ(mesh.region_of[i], before.mesh.region_of[k]);
       EXPECT_EQ(mesh.cell_of[i], static_cast<int>(k));  // whose axes it has, where a file gives them
       EXPECT_EQ(loaded.cell_data[0].values[2 * i], static_cast<double>(k));
       EXPECT_EQ(loaded.cell_data[0].values[2 * i + 1], -static_cast<double>(k));
-      sum += signed_volume6(mesh, mesh.tets[i]);
-      EXPECT_NEAR(signed_volume6(mesh, mesh.tets[i]), signed_volume6(before.mesh, before.mesh.tets[k]) / 8, 1e-13);
+      sum += 6 * cell_volume(mesh, i);
+      EXPECT_NEAR(6 * cell_volume(mesh, i), 6 * cell_volume(before.mesh, k) / 8, 1e-13);
     }
-    EXPECT_NEAR(sum, signed_volume6(before.mesh, before.mesh.tets[k]), 1e-13);
+    EXPECT_NEAR(sum, 6 * cell_volume(before.mesh, k), 1e-13);
   }
 }
 
@@ -81,7 +81,7 @@ TEST_P(Refinement, KeepsSurfacesAndNodeSets) {
   if (GetParam() == 2) make_quadratic(loaded.mesh);
   const LoadedMesh before = loaded;
   refine(loaded);
-  const TetMesh& mesh = loaded.mesh;
+  const Mesh& mesh = loaded.mesh;
   for (const auto& [name, triangles] : before.mesh.surfaces) {
     EXPECT_EQ(mesh.surfaces.at(name).size(), 4 * triangles.size()) << name;
     EXPECT_NEAR(area(mesh, mesh.surfaces.at(name)), area(before.mesh, triangles), 1e-13) << name;

@@ -11,6 +11,7 @@
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::round_trip_test {
 namespace {
@@ -19,11 +20,11 @@ namespace {
 LoadedMesh sample() {
   LoadedMesh loaded;
   loaded.mesh = make_box({.size = Vec3(1, 2, 3) / 3, .cells = {2, 1, 1}});
-  TetMesh& mesh = loaded.mesh;
+  Mesh& mesh = loaded.mesh;
   mesh.region_names = {"region1", "region2"};
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region_of[e] = static_cast<int>(e % 2);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) mesh.region_of[e] = static_cast<int>(e % 2);
   const auto x0 = mesh.surfaces.at("x0");
-  const Tet& central = mesh.tets[0];
+  const Tet central = tets_of(mesh)[0];
   mesh.surfaces = {{"marker1", x0}, {"marker2", {{central[0], central[1], central[2]}}}};
   mesh.node_sets = {{"marker3", {0, 3, 4}}};
   validate(mesh, {"sample"});
@@ -41,9 +42,9 @@ class RoundTrip : public testing::TestWithParam<std::string> {};
 
 TEST_P(RoundTrip, KeepsNodesElementsAndRegionsToTheLastDigit) {
   const LoadedMesh loaded = sample();
-  const TetMesh mesh = through(GetParam(), loaded).mesh;
+  const Mesh mesh = through(GetParam(), loaded).mesh;
   EXPECT_EQ(mesh.nodes, loaded.mesh.nodes);
-  EXPECT_EQ(mesh.tets, loaded.mesh.tets);
+  EXPECT_EQ(mesh.cells, loaded.mesh.cells);
   EXPECT_EQ(mesh.region_names, loaded.mesh.region_names);
   EXPECT_EQ(mesh.region_of, loaded.mesh.region_of);
 }
@@ -51,7 +52,7 @@ TEST_P(RoundTrip, KeepsNodesElementsAndRegionsToTheLastDigit) {
 TEST_P(RoundTrip, KeepsOrNamesSurfacesAndNodeSets) {
   const LoadedMesh loaded = sample();
   Warnings losses;
-  const TetMesh mesh = through(GetParam(), loaded, &losses).mesh;
+  const Mesh mesh = through(GetParam(), loaded, &losses).mesh;
   std::string said;
   for (const std::string& loss : losses) said += loss + "\n";
   for (const auto& [name, triangles] : loaded.mesh.surfaces) {
@@ -61,7 +62,7 @@ TEST_P(RoundTrip, KeepsOrNamesSurfacesAndNodeSets) {
     }
     ASSERT_EQ(mesh.surfaces.at(name).size(), triangles.size()) << name;
     for (std::size_t t = 0; t < triangles.size(); ++t) {  // the same nodes, the same way round
-      Triangle read = mesh.surfaces.at(name)[t];
+      FaceCorners read = mesh.surfaces.at(name)[t];
       for (int turn = 0; turn < 3 && read != triangles[t]; ++turn)
         std::rotate(read.begin(), read.begin() + 1, read.end());
       EXPECT_EQ(read, triangles[t]) << name;
@@ -120,7 +121,7 @@ TEST(WrittenVega, KeepsMaterialsAxesAndTheFixedNodes) {
 TEST(WrittenVtu, KeepsNamesAndCellData) {
   LoadedMesh loaded = sample();
   loaded.mesh.region_names = {"soft wood", "<\"&>"};
-  loaded.cell_data = {{"axis 1", 3, std::vector<double>(3 * loaded.mesh.tets.size(), 0.1)}};
+  loaded.cell_data = {{"axis 1", 3, std::vector<double>(3 * loaded.mesh.cells.size(), 0.1)}};
   const LoadedMesh read = through(".vtu", loaded);
   EXPECT_EQ(read.mesh.region_names, loaded.mesh.region_names);
   ASSERT_TRUE(find_cell_data(read, "axis 1"));
@@ -132,12 +133,13 @@ class NamesThatAreAlike : public testing::TestWithParam<const char*> {};
 
 TEST_P(NamesThatAreAlike, AreStillSeveralRegions) {
   LoadedMesh loaded = sample();
-  TetMesh& mesh = loaded.mesh;
+  Mesh& mesh = loaded.mesh;
   mesh.region_names = {"a b", "a_b", "A_B", "x, y=1", "x", "\"x\"", " x "};
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region_of[e] = static_cast<int>(e % mesh.region_names.size());
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    mesh.region_of[e] = static_cast<int>(e % mesh.region_names.size());
   mesh.node_sets.clear();
   Warnings losses;
-  const TetMesh read = through(GetParam(), loaded, &losses).mesh;
+  const Mesh read = through(GetParam(), loaded, &losses).mesh;
   ASSERT_EQ(read.region_names.size(), mesh.region_names.size());
   EXPECT_EQ(read.region_of, mesh.region_of);
   std::string said;
@@ -154,7 +156,7 @@ TEST(WrittenAbaqus, KeepsNamesWithCommasAndSetsThatDifferInCapitals) {
   LoadedMesh loaded = sample();
   loaded.mesh.region_names = {"x, y=1", "rest"};
   loaded.mesh.node_sets = {{"Tip", {0}}, {"tip", {1}}};
-  const TetMesh read = through(".inp", loaded).mesh;
+  const Mesh read = through(".inp", loaded).mesh;
   EXPECT_EQ(read.region_names, loaded.mesh.region_names);
   ASSERT_EQ(read.node_sets.size(), 2u);
   EXPECT_EQ(read.node_sets.at("Tip"), std::vector<int>{0});
@@ -191,7 +193,7 @@ TEST(WriteMesh, ReplacesNothingUnasked) {
                   "mesh.ele: already exists; --force");
   EXPECT_FALSE(std::filesystem::exists(folder.path("mesh.node")));
   write_mesh(sample(), folder.path("mesh.node"), true);
-  EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);
+  EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.cells, sample().mesh.cells);
 }
 
 // During its lifetime no file can exceed `bytes`, as on a full disk.
@@ -244,10 +246,10 @@ TEST(WriteMesh, AFullDiskCostsNoneOfTheFilesThatAreThere) {
 }
 
 TEST(WriteMesh, ScalingMultipliesLengthsAndRefusesWhatCannotBeRepresented) {
-  TetMesh mesh = sample().mesh;
-  const double volume = signed_volume6(mesh, mesh.tets[0]);
+  Mesh mesh = sample().mesh;
+  const double volume = cell_volume(mesh, 0);
   scale_mesh(mesh, 2, "m");
-  EXPECT_NEAR(signed_volume6(mesh, mesh.tets[0]), 8 * volume, 1e-15);
+  EXPECT_NEAR(6 * cell_volume(mesh, 0), 6 * 8 * volume, 1e-15);
   EXPECT_CONTAINS(refusal_of([&] { scale_mesh(mesh, 1e-110, "m"); }), "cannot be represented; check the scale");
 }
 

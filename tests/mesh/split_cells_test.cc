@@ -12,6 +12,7 @@
 #include "lib/mesh/mesh_draft.h"
 #include "lib/mesh/quadratic.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::split_cells_test {
 namespace {
@@ -41,7 +42,7 @@ const Solid kSolids[] = {{CellKind::pyramid,
                           {5, 6}}};
 
 double volume(const std::vector<Tet>& tets, const std::vector<Vec3>& nodes) {
-  TetMesh mesh;
+  Mesh mesh;
   mesh.nodes = nodes;
   double sum = 0;
   for (const Tet& tet : tets) sum += signed_volume6(mesh, tet) / 6;
@@ -198,9 +199,9 @@ class Blocks {
 };
 
 // validate() cannot detect a face whose two sides are cut by different diagonals: they look like boundary faces.
-void expect_conforming(const TetMesh& mesh, int n) {
-  EXPECT_NEAR(volume(mesh.tets, mesh.nodes), n * n * n, 1e-12);
-  EXPECT_EQ(boundary_triangles(mesh).size(), static_cast<std::size_t>(12 * n * n));
+void expect_conforming(const Mesh& mesh, int n) {
+  EXPECT_NEAR(volume(tets_of(mesh), mesh.nodes), n * n * n, 1e-12);
+  EXPECT_EQ(boundary_faces(mesh).size(), static_cast<std::size_t>(12 * n * n));
 }
 
 TEST(SplitCells, NeighboursMatchWhateverTheNumbersOfNodes) {
@@ -210,7 +211,7 @@ TEST(SplitCells, NeighboursMatchWhateverTheNumbersOfNodes) {
     EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 18u);
     ASSERT_EQ(loaded.warnings.size(), 1u);
     EXPECT_EQ(loaded.warnings[0],
-              fmt::format("blocks.msh: 27 hexahedra are split into {} tetrahedra", loaded.mesh.tets.size()));
+              fmt::format("blocks.msh: 27 hexahedra are split into {} tetrahedra", loaded.mesh.cells.size()));
   }
 }
 
@@ -220,15 +221,15 @@ TEST(SplitCells, HexahedraWedgesAndPyramidsMatch) {
     expect_conforming(loaded.mesh, 3);
     EXPECT_EQ(loaded.warnings[0],
               fmt::format("blocks.msh: 9 hexahedra, 18 wedges and 54 pyramids are split into {} tetrahedra",
-                          loaded.mesh.tets.size()));
+                          loaded.mesh.cells.size()));
   }
 }
 
 TEST(SplitCells, ASplitMeshCanBeMadeQuadratic) {
-  TetMesh mesh = build_mesh(Blocks(2, 3, true).take()).mesh;
+  Mesh mesh = build_mesh(Blocks(2, 3, true).take()).mesh;
   make_quadratic(mesh);
   EXPECT_EQ(validate(mesh, {.source = "blocks"}), Warnings{});
-  EXPECT_EQ(mesh.midsides.size(), mesh.tets.size());
+  for (const CellShape shape : mesh.cells.shapes()) EXPECT_EQ(shape, CellShape::tet10);
 }
 
 // A cube in the region "first", a tet on it, and a pyramid beside the tet.
@@ -250,7 +251,7 @@ TEST(SplitCells, TetsOfAnElementFollowEachOtherInTheOrderOfTheFile) {
   const LoadedMesh loaded = build_mesh(three_kinds());
   EXPECT_EQ(loaded.mesh.cell_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 2, 2}));
   EXPECT_EQ(loaded.mesh.region_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1}));
-  EXPECT_EQ(loaded.mesh.tets[6], (Tet{4, 9, 5, 8}));
+  EXPECT_EQ(tets_of(loaded.mesh)[6], (Tet{4, 9, 5, 8}));
   EXPECT_EQ(loaded.warnings, Warnings{"mixed.msh: 1 hexahedron and 1 pyramid are split into 8 tetrahedra"});
 }
 
@@ -263,13 +264,13 @@ TEST(SplitCells, AMeshOfTetsSaysNothing) {
 }
 
 TEST(SplitCells, AnInvertedElementIsTurnedAndToldWithItsLine) {
-  const std::size_t tets = build_mesh(three_kinds()).mesh.tets.size();
+  const std::size_t tets = build_mesh(three_kinds()).mesh.cells.size();
   MeshDraft draft = three_kinds();
   auto& nodes = draft.cells[0].nodes;
   for (std::size_t k = 0; k < 4; ++k) std::swap(nodes[k], nodes[k + 4]);
   const LoadedMesh loaded = build_mesh(draft);
-  EXPECT_EQ(loaded.mesh.tets.size(), tets);
-  for (const Tet& tet : loaded.mesh.tets) EXPECT_GT(signed_volume6(loaded.mesh, tet), 0);
+  EXPECT_EQ(loaded.mesh.cells.size(), tets);
+  for (const Tet& tet : tets_of(loaded.mesh)) EXPECT_GT(signed_volume6(loaded.mesh, tet), 0);
   EXPECT_CONTAINS(loaded.warnings.at(0),
                   "mixed.msh:12: 1 of 3 elements list their nodes in inverted order, the first is element 70; they "
                   "were reoriented");
@@ -322,14 +323,14 @@ TEST(SplitCells, NodesWithinFacesAndHexahedraAreWhereTheElementHasThem) {
   for (std::size_t n = 0; n < rest.size(); ++n)  // one whole face, and three edges of another
     if (rest[n][2] == 0) draft.node_sets["bottom"].push_back({static_cast<std::int64_t>(n), {}});
   for (const std::int64_t n : {0, 1, 5, 8}) draft.node_sets["some"].push_back({n, {}});
-  const TetMesh mesh = build_mesh(draft).mesh;
+  const Mesh mesh = build_mesh(draft, FileCells::split).mesh;
   ASSERT_EQ(mesh.order(), 2);
-  ASSERT_EQ(mesh.nodes.size(), 20u + 6 + (mesh.tets.size() == 6 ? 1 : 0));
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+  ASSERT_EQ(mesh.nodes.size(), 20u + 6 + (mesh.cells.size() == 6 ? 1 : 0));
+  for (std::size_t t = 0; t < mesh.cells.size(); ++t)
     for (std::size_t e = 0; e < 6; ++e) {
-      const auto at = [&](std::size_t k) { return rest[static_cast<std::size_t>(mesh.tets[t][kTetEdges[e][k]])]; };
+      const auto at = [&](std::size_t k) { return rest[static_cast<std::size_t>(mesh.cells[t][kTetEdges[e][k]])]; };
       const Vec3 expected = place((at(0) + at(1)) / 2);
-      EXPECT_LT((mesh.nodes[static_cast<std::size_t>(mesh.midsides[t][e])] - expected).norm(), 1e-14);
+      EXPECT_LT((mesh.nodes[static_cast<std::size_t>(mesh.cells[t][4 + e])] - expected).norm(), 1e-14);
     }
   EXPECT_EQ(mesh.node_sets.at("bottom").size(), 9u);
   EXPECT_EQ(mesh.node_sets.at("some").size(), 4u);
@@ -340,13 +341,13 @@ TEST(SplitCells, ATetOnAQuadrilateralMustFitItsDiagonal) {
   MeshDraft draft = three_kinds();
   draft.cells.pop_back();
   draft.cells[1].nodes = {4, 5, 6, 8};
-  EXPECT_EQ(build_mesh(draft).mesh.tets.size(), 7u);
+  EXPECT_EQ(build_mesh(draft).mesh.cells.size(), 7u);
   draft.cells[1].nodes = {4, 5, 7, 8};
   EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }),
                   "mixed.msh:13: element 71: a tetrahedron on a quadrilateral of element 70 (mixed.msh:12), which is "
                   "cut by the other diagonal, from node 4 to 6; mesh with pyramids between them");
   draft.cells[0].nodes[6] = 7;  // a collapsed face is no quadrilateral
-  EXPECT_EQ(build_mesh(draft).mesh.tets.size(), 5u);
+  EXPECT_EQ(build_mesh(draft).mesh.cells.size(), 5u);
 }
 
 TEST(SplitCells, AQuadrilateralThatIsNoFaceIsRefusedWithItsLine) {

@@ -10,6 +10,7 @@
 
 #include "lib/core/errors.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::vega_test {
 namespace {
@@ -58,7 +59,7 @@ std::string refused_material(const std::string& line) {
 TEST(Vega, ReadsVerticesAndTets) {
   const LoadedMesh loaded = load(kTwoTets);
   EXPECT_EQ(loaded.mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
-  EXPECT_EQ(loaded.mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(tets_of(loaded.mesh), (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(loaded.mesh.region_names, std::vector<std::string>{"body"});
   EXPECT_TRUE(loaded.materials.empty());
   EXPECT_TRUE(loaded.warnings.empty());
@@ -69,7 +70,7 @@ TEST(Vega, CountsFromZeroIfTheFirstNumberIsZero) {
       "*VERTICES\n5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n*ELEMENTS\nTETS\n2 4 0\n"
       "0 0 1 2 3\n1 1 2 3 4\n*SET second\n1\n";
   const LoadedMesh loaded = load(zero);
-  EXPECT_EQ(loaded.mesh.tets, load(kTwoTets).mesh.tets);
+  EXPECT_EQ(loaded.mesh.cells, load(kTwoTets).mesh.cells);
   EXPECT_EQ(loaded.mesh.region_of[1], 0);  // regions in the order of the file, the rest last
   EXPECT_EQ(loaded.mesh.region_names[0], "second");
 }
@@ -254,15 +255,15 @@ TEST(Vega, ReadsTheModelsThatComeWithVega) {
   const LoadedMesh turtle =
       read_vega(veg + "turtle/turtle-volumetric-heterogeneous.ortho.veg", {veg + "turtle/turtle-volumetric.bou"});
   EXPECT_EQ(turtle.mesh.nodes.size(), 347u);
-  EXPECT_EQ(turtle.mesh.tets.size(), 1185u);
+  EXPECT_EQ(turtle.mesh.cells.size(), 1185u);
   EXPECT_EQ(turtle.materials.at("theRest").young, Vec3(25e9, 25e5, 25e3));
   EXPECT_TRUE(turtle.mesh.node_sets.contains("fixed"));
-  EXPECT_EQ(read_vega(veg + "simple_bridge/simpleBridge-ic_128_0.15_.1.veg").mesh.tets.size(), 12827u);
+  EXPECT_EQ(read_vega(veg + "simple_bridge/simpleBridge-ic_128_0.15_.1.veg").mesh.cells.size(), 12827u);
   const LoadedMesh cubes = read_vega(veg + "simple_bridge/simpleBridge_resol92-b1.155_enlarged.veg");
   EXPECT_EQ(cubes.mesh.cell_of.back(), 1735);
   EXPECT_CONTAINS(cubes.warnings.at(0), "1736 hexahedra are split into ");
   double volume = 0;
-  for (const Tet& tet : cubes.mesh.tets) volume += signed_volume6(cubes.mesh, tet) / 6;
+  for (const Tet& tet : tets_of(cubes.mesh)) volume += signed_volume6(cubes.mesh, tet) / 6;
   const double edge = (cubes.mesh.nodes[1] - cubes.mesh.nodes[0]).norm();
   EXPECT_NEAR(volume, 1736 * edge * edge * edge, 1e-4 * volume);  // coordinates have six digits
 }

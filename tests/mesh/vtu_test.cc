@@ -9,6 +9,7 @@
 
 #include "lib/mesh/io/vtk.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::vtu_test {
 namespace {
@@ -92,13 +93,13 @@ class Appended {
 };
 
 TEST(Vtu, AppendedDataOfEveryEncodingGiveTheSameMesh) {
-  const TetMesh mesh = load(kAscii).mesh;
+  const Mesh mesh = load(kAscii).mesh;
   for (const bool big : {false, true}) {
     for (const bool wide : {false, true}) {
       for (const bool base64 : {false, true}) {
-        const TetMesh other = load(Appended(big, wide, base64).text()).mesh;
+        const Mesh other = load(Appended(big, wide, base64).text()).mesh;
         EXPECT_EQ(other.nodes, mesh.nodes) << big << wide << base64;
-        EXPECT_EQ(other.tets, mesh.tets) << big << wide << base64;
+        EXPECT_EQ(other.cells, mesh.cells) << big << wide << base64;
       }
     }
   }
@@ -120,7 +121,7 @@ TEST(Vtu, AHeaderAndASingleByteMayShareAGroupOfBase64) {
   one = replaced(one, "0 0 0 1 1 1 1<", "0 0 0 1<");
   one = replaced(one, "NumberOfPoints=\"5\"", "NumberOfPoints=\"4\"");
   one = replaced(one, "type=\"UnstructuredGrid\"", "type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"");
-  EXPECT_EQ(load(one).mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}}));
+  EXPECT_EQ(tets_of(load(one).mesh), (std::vector<Tet>{{0, 1, 2, 3}}));
   EXPECT_CONTAINS(refusal(replaced(one, "AQAAAAo=", "AgAAAAo=")), "is it truncated?");
 }
 
@@ -189,17 +190,17 @@ TEST(Vtu, CellDataFollowTheTetsWhereOtherCellsAreIgnored) {
   text = replaced(replaced(text, "4 8", "3 7 11"), "10 10", "5 10 10");
   const LoadedMesh loaded = load(text);
   EXPECT_EQ(find_cell_data(loaded, "axis")->values, (std::vector<double>{1, 0, 0, 0, 0.5, 0}));
-  EXPECT_EQ(loaded.mesh.tets, load(kAscii).mesh.tets);
+  EXPECT_EQ(loaded.mesh.cells, load(kAscii).mesh.cells);
   EXPECT_EQ(loaded.warnings.size(), 1u);
 }
 
 TEST(Vtu, TurnsElementsThatCountTheOtherWayRound) {
   const LoadedMesh loaded = load(replaced(kAscii, "0 1 2 3 1 2 3 4", "0 1 3 2 1 2 4 3"));
-  EXPECT_EQ(loaded.mesh.tets, load(kAscii).mesh.tets);
+  EXPECT_EQ(loaded.mesh.cells, load(kAscii).mesh.cells);
   ASSERT_EQ(loaded.warnings.size(), 1u);
   EXPECT_CONTAINS(loaded.warnings[0], "all 2 elements list their nodes in inverted order");
   const LoadedMesh one = load(replaced(kAscii, "0 1 2 3 1 2 3 4", "0 1 2 3 1 2 4 3"));
-  EXPECT_EQ(one.mesh.tets, load(kAscii).mesh.tets);
+  EXPECT_EQ(one.mesh.cells, load(kAscii).mesh.cells);
   EXPECT_CONTAINS(one.warnings.at(0), "1 of 2 elements list their nodes in inverted order, the first is element 1");
 }
 

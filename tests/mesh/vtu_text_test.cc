@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/mesh/io/vtk_grid.h"
 #include "lib/mesh/io/vtu.h"
 #include "tests/mesh/refusal.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::vtu_text_test {
 namespace {
@@ -12,8 +12,7 @@ namespace {
 const std::vector<Vec3> kPoints{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.0 / 3}};
 
 VtuGrid two_tets() {
-  VtuGrid grid{
-      .points = kPoints, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {0, 1, 2, 3, 1, 2, 3, 4}};
+  VtuGrid grid{.points = kPoints, .cells = Cells(std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}})};
   grid.point_data = {{.name = "nodes:tip", .type = VtuNumber::uint8, .values = {0, 0, 0, 0, 1}}};
   grid.cell_data = {{.name = "region", .type = VtuNumber::int32, .values = {1, 0}},
                     {.name = "axis", .components = 3, .values = {0.1, 0, 0, 0, 1.0 / 3, 0}},
@@ -41,7 +40,7 @@ class AnyStorage : public testing::TestWithParam<VtuStorage> {};
 TEST_P(AnyStorage, KeepsTheGridAndItsFields) {
   const LoadedMesh read = read_vtu_text("grid.vtu", whole(vtu_text(two_tets(), GetParam())));
   EXPECT_EQ(read.mesh.nodes, kPoints);
-  EXPECT_EQ(read.mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(tets_of(read.mesh), (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(read.mesh.region_names.at(static_cast<std::size_t>(read.mesh.region_of.at(0))), "\"hard\"");
   EXPECT_EQ(read.mesh.region_names.at(static_cast<std::size_t>(read.mesh.region_of.at(1))), "soft <wood>");
   EXPECT_EQ(read.mesh.node_sets.at("tip"), std::vector<int>{4});
@@ -54,9 +53,17 @@ TEST_P(AnyStorage, KeepsTheGridAndItsFields) {
 
 // Only the reader of meshes asks for certain ones.
 TEST_P(AnyStorage, WritesCellsOfAnyShape) {
-  const VtuGrid grid{.points = kPoints, .cell_type = 42, .points_per_cell = 5, .connectivity = {0, 1, 4, 2, 3}};
-  EXPECT_CONTAINS(refusal_of([&] { read_vtu_text("grid.vtu", whole(vtu_text(grid, GetParam()))); }),
-                  "cell 0: a polyhedron (type 42)");
+  VtuGrid grid{.points = kPoints, .cells = {}};
+  grid.cells.add(CellShape::tri3, std::array{0, 1, 2});
+  grid.cells.add(CellShape::quad4, std::array{1, 4, 2, 0});
+  const auto read = [&] { return read_vtu_text("grid.vtu", whole(vtu_text(grid, GetParam()))); };
+  EXPECT_CONTAINS(refusal_of([&] { read(); }), "no solid cells");
+  grid.cells.add(CellShape::tet4, std::array{1, 2, 3, 4});
+  grid.cells.add(CellShape::tri3, std::array{1, 2, 3});
+  grid.cells.add(CellShape::tet4, std::array{0, 1, 2, 3});
+  const LoadedMesh loaded = read();
+  EXPECT_EQ(tets_of(loaded.mesh), (std::vector<Tet>{{1, 2, 3, 4}, {0, 1, 2, 3}}));
+  EXPECT_CONTAINS(loaded.warnings.at(0), "3 vertices, lines, triangles and quadrilaterals are ignored");
 }
 
 INSTANTIATE_TEST_SUITE_P(Storages, AnyStorage, testing::Values(VtuStorage::ascii, VtuStorage::raw),

@@ -97,12 +97,12 @@ terms: [{{type: pressure, surface: z1, pressure: {}}}]
 std::string ring(bool follows, double pressure, const std::string& analysis) {
   constexpr int kAround = 48;
   constexpr double kOuter = 1.01, kInner = 0.99, kDepth = 0.05;
-  TetMesh mesh = make_box({.size = {1, kDepth, 1}, .cells = {kAround, 1, 1}});
+  Mesh mesh = make_box({.size = {1, kDepth, 1}, .cells = {kAround, 1, 1}});
   const auto bent = [&](const Vec3& x) {
     const double r = kInner + (kOuter - kInner) * x[2], angle = kPi / 2 * (1 - x[0]);
     return Vec3(r * std::cos(angle), r * std::sin(angle), -x[1]);
   };
-  const TetMesh straight = mesh;
+  const Mesh straight = mesh;
   for (Vec3& x : mesh.nodes) x = bent(x);
   make_quadratic(mesh, [&](int a, int b) {
     return bent((straight.nodes[static_cast<std::size_t>(a)] + straight.nodes[static_cast<std::size_t>(b)]) / 2);
@@ -166,7 +166,7 @@ TEST(Ring, HasModesAboutRestThatNoPressureChanges) {
 // A shallow arch between clamps under follower pressure on its upper side.
 double limit_pressure(double asked, bool follows) {
   constexpr double kRise = 0.04, kDepth = 0.02;
-  TetMesh mesh = make_box({.size = {1, 0.05, kDepth}, .cells = {24, 1, 1}});
+  Mesh mesh = make_box({.size = {1, 0.05, kDepth}, .cells = {24, 1, 1}});
   for (Vec3& x : mesh.nodes) x[2] += kRise * std::sin(kPi * x[0]);
   make_quadratic(mesh, [&](int a, int b) {
     return Vec3((mesh.nodes[static_cast<std::size_t>(a)] + mesh.nodes[static_cast<std::size_t>(b)]) / 2);

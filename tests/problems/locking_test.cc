@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
 #include "lib/simulation/error_estimate/locking_check.h"
 #include "lib/simulation/modes/modal_analysis.h"

@@ -9,6 +9,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "lib/element/tet10.h"
 #include "lib/mesh/box.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/study/converge/richardson.h"
 #include "tests/problems/running.h"
 
@@ -23,7 +24,7 @@ const std::string kIsotropic = "{type: isotropic, density: 1, young: 1, nu: 0.3}
 
 // A free box with oblique material axes at small strain; `distorted` shifts the inner nodes.
 BuiltTestScene box(int cells, int order, bool distorted = false, const std::string& material = kWood) {
-  TetMesh mesh = make_box({.cells = {cells, cells, cells}, .split = BoxMesh::Split::six});
+  Mesh mesh = make_box({.cells = {cells, cells, cells}, .split = BoxMesh::Split::six});
   Random random(501);
   if (distorted)
     for (Vec3& x : mesh.nodes)
@@ -58,9 +59,9 @@ class Law {
 
  private:
   static BuiltTestScene one_tet(const std::string& material) {
-    TetMesh mesh;
+    Mesh mesh;
     mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    mesh.tets = {{0, 1, 2, 3}};
+    mesh.cells = Cells(std::vector<Tet>{{0, 1, 2, 3}});
     mesh.region_of = {0};
     mesh.region_names = {"body"};
     given_mesh() = mesh;

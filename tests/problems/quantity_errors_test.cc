@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/analysis/displacement_error.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 #include "lib/simulation/modes/modal_analysis.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/statics/static_problem.h"

@@ -15,17 +15,14 @@ namespace {
 
 // A box with distorted cells and one or two regions at small strain.
 BuiltTestScene box(int order, bool two_regions = false, double thickness = 1) {
-  TetMesh mesh = make_box({.cells = {3, 3, 3}, .split = BoxMesh::Split::six});
+  Mesh mesh = make_box({.cells = {3, 3, 3}, .split = BoxMesh::Split::six});
   Random random(511);
   for (Vec3& x : mesh.nodes)
     if ((x.array() > 0.01).all() && (x.array() < 0.99).all()) x += 0.05 * random.vector();
   if (two_regions) {
     mesh.region_names = {"soft", "stiff"};
-    for (std::size_t c = 0; c < mesh.tets.size(); ++c) {
-      double middle = 0;
-      for (const int node : mesh.tets[c]) middle += mesh.nodes[static_cast<std::size_t>(node)][0] / 4;
-      mesh.region_of[c] = middle > 0.5 ? 1 : 0;
-    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      mesh.region_of[c] = centroid(mesh, static_cast<int>(c))[0] > 0.5 ? 1 : 0;
   }
   const Mat3 turned = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   if (thickness != 1)
@@ -110,14 +107,16 @@ elasticity: {kinematics: linear}
 mass: consistent
 time: {end: 1}
 )";
-  TetMesh mesh = straight.mesh();
+  Mesh mesh = straight.mesh();
   Random random(77);
-  for (const Midsides& middles : mesh.midsides)
-    for (const int node : middles) mesh.nodes[static_cast<std::size_t>(node)] += 0.01 * random.vector();
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const int node : mesh.cells[c].subspan(4))
+      mesh.nodes[static_cast<std::size_t>(node)] += 0.01 * random.vector();
   given_mesh() = mesh;
   const BuiltTestScene first(yaml);
-  std::reverse(mesh.tets.begin(), mesh.tets.end());
-  std::reverse(mesh.midsides.begin(), mesh.midsides.end());
+  Cells from_the_last;
+  for (std::size_t c = mesh.cells.size(); c-- > 0;) from_the_last.add(mesh.cells.shape(c), mesh.cells[c]);
+  mesh.cells = from_the_last;
   given_mesh() = mesh;
   const BuiltTestScene second(yaml);
   const auto of = [&](const BuiltTestScene& s, const char* name) {
@@ -142,8 +141,8 @@ TEST(MeshError, KnowsThatStressesJumpBetweenRegions) {
   // Nodes of one region have its stress, E times the strain; shared nodes have the mean.
   const auto& mesh = s.mesh();
   std::vector<int> seen(mesh.nodes.size(), 0);
-  for (std::size_t c = 0; c < mesh.tets.size(); ++c)
-    for (const int node : mesh.tets[c]) seen[static_cast<std::size_t>(node)] |= 1 << mesh.region_of[c];
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const int node : mesh.cells[c]) seen[static_cast<std::size_t>(node)] |= 1 << mesh.region_of[c];
   const auto stress = s.model().evaluate("nodal_stress_material", state);
   for (std::size_t n = 0; n < seen.size(); ++n)
     EXPECT_NEAR(stress[6 * n], seen[n] == 1 ? 1 : seen[n] == 2 ? 3 : 2, 1e-11);

@@ -55,7 +55,7 @@ double theory(double d) {
 }
 
 BuiltTestScene toggle(double load) {
-  TetMesh mesh = make_box({.size = {2 * kHalf, kWidth, kDepth}, .cells = {32, 1, 1}});
+  Mesh mesh = make_box({.size = {2 * kHalf, kWidth, kDepth}, .cells = {32, 1, 1}});
   for (Vec3& x : mesh.nodes) x[2] += kRise * (1 - std::abs(x[0] / kHalf - 1));
   make_quadratic(mesh, [&](int a, int b) {
     return Vec3((mesh.nodes[static_cast<std::size_t>(a)] + mesh.nodes[static_cast<std::size_t>(b)]) / 2);

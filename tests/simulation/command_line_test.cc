@@ -114,10 +114,10 @@ TEST_F(CommandLine, FramesConvertBackToTheMesh) {
   ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
   const auto converted = orthodyn("convert out/swing/frames/frame_00000.vtu back.msh");
   ASSERT_EQ(converted.exit_code, 0) << converted.output;
-  const TetMesh back = read_mesh((folder_ / "back.msh").string()).mesh;
-  const TetMesh box = make_box({.size = Vec3(1, 0.2, 0.2), .cells = {4, 1, 1}});
+  const Mesh back = read_mesh((folder_ / "back.msh").string()).mesh;
+  const Mesh box = make_box({.size = Vec3(1, 0.2, 0.2), .cells = {4, 1, 1}});
   EXPECT_EQ(back.nodes, box.nodes);
-  EXPECT_EQ(back.tets, box.tets);
+  EXPECT_EQ(back.cells, box.cells);
 }
 
 TEST_F(CommandLine, AnEarlierResultIsKeptUnlessForced) {

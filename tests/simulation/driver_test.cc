@@ -202,13 +202,13 @@ TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
 TEST_F(Files, FramesCarryTheNamesOfRegions) {
   Case two(replaced(kSwing, "cells: [4, 1, 1], order: 1}",
                     "cells: [4, 1, 1], order: 1, parts: {stiff: {min: [0, 0, 0], max: [0.5, 1, 1]}}}"));
-  const TetMesh& mesh = two.built.model->parts().mesh;
+  const Mesh& mesh = two.built.model->parts().mesh;
   ASSERT_EQ(mesh.region_names.size(), 2u);
   for (const std::vector<std::string>& fields :
        {std::vector<std::string>{"displacement"}, {"displacement", "region"}}) {
     FrameWriter frames(folder_, *two.built.model, fields, &mesh);
     frames.on_start({*two.built.model, two.built.initial});
-    const TetMesh read = read_mesh((folder_ / "frames/frame_00000.vtu").string()).mesh;
+    const Mesh read = read_mesh((folder_ / "frames/frame_00000.vtu").string()).mesh;
     ASSERT_EQ(read.region_of.size(), mesh.region_of.size());
     for (std::size_t e = 0; e < mesh.region_of.size(); ++e)
       EXPECT_EQ(read.region_names[static_cast<std::size_t>(read.region_of[e])],

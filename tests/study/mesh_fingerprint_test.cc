@@ -13,7 +13,7 @@ namespace {
 LoadedMesh two_elements() {
   LoadedMesh loaded;
   loaded.mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
-  loaded.mesh.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  loaded.mesh.cells = Cells(std::vector<Tet>{{0, 1, 2, 3}, {0, 2, 1, 4}});
   loaded.mesh.region_of = {0, 1};
   loaded.mesh.region_names = {"upper", "lower"};
   loaded.mesh.surfaces = {{"left", {{0, 2, 3}}}, {"right", {{1, 2, 3}, {2, 1, 4}}}};
@@ -41,12 +41,18 @@ TEST_P(MeshFingerprint, IsAnotherAfterTheChange) {
 const Change kOfTheMesh[] = {
     {"a_coordinate_by_one_bit", [](LoadedMesh& m) { m.mesh.nodes[3][2] += std::numeric_limits<double>::epsilon(); }},
     {"the_order_of_nodes", [](LoadedMesh& m) { std::swap(m.mesh.nodes[3], m.mesh.nodes[4]); }},
-    {"the_order_of_elements", [](LoadedMesh& m) { std::swap(m.mesh.tets[0], m.mesh.tets[1]); }},
+    {"the_order_of_elements",
+     [](LoadedMesh& m) {
+       m.mesh.cells = Cells(std::vector<Tet>{{0, 2, 1, 4}, {0, 1, 2, 3}});
+     }},
     {"the_order_within_an_element",
      [](LoadedMesh& m) {
-       m.mesh.tets[0] = {1, 2, 0, 3};
+       m.mesh.cells = Cells(std::vector<Tet>{{1, 2, 0, 3}, {0, 2, 1, 4}});
      }},
-    {"an_element_less", [](LoadedMesh& m) { m.mesh.tets.pop_back(), m.mesh.region_of.pop_back(); }},
+    {"an_element_less",
+     [](LoadedMesh& m) {
+       m.mesh.cells = Cells(std::vector<Tet>{{0, 1, 2, 3}}), m.mesh.region_of.pop_back();
+     }},
     {"the_region_of_an_element", [](LoadedMesh& m) { m.mesh.region_of[1] = 0; }},
     {"the_name_of_a_region", [](LoadedMesh& m) { m.mesh.region_names[0] = "top"; }},
     {"the_border_between_names",

@@ -70,7 +70,7 @@ void print_memory(const FemModel& model, const std::string& solver, std::size_t 
   };
   for (const auto& [name, bytes] : model.memory()) line(name, bytes);
   if (solver_bytes > 0) line(solver, solver_bytes);
-  const auto cells = static_cast<double>(model.parts().mesh.tets.size());
+  const auto cells = static_cast<double>(model.parts().mesh.cells.size());
   fmt::print("  {:<20} {:8.2f} MiB, {:.0f} bytes per element\n", "without factor", mebibytes(sum),
              static_cast<double>(sum) / cells);
   if (factor_bytes > 0) line("factorisation", factor_bytes);
@@ -141,7 +141,7 @@ int check(const CheckArguments& arguments) {
   std::optional<StaticProblem> statics;  // throws for a body with rigid motions
   if (!setup.integrator) statics.emplace(static_problem(setup.scene, setup.built));
   fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", except for the missing 'time'");
-  fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
+  fmt::print("mesh\n  {} nodes, {}, regions {}\n", parts.mesh.nodes.size(), describe_cells(parts.mesh.cells),
              join(parts.mesh.region_names));
   const Box box = bounding_box(parts.mesh);
   fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),

@@ -15,19 +15,19 @@ namespace {
 struct ConvertArguments {
   std::string in, out;
   double scale = 1;
-  bool force = false;
+  bool split = false, force = false;
 };
 
 int convert(const ConvertArguments& arguments) {
   if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale: must be positive, found {}", arguments.scale));
   mesh_format_to_write(arguments.out);
-  LoadedMesh loaded = read_mesh(arguments.in);
+  LoadedMesh loaded = read_mesh(arguments.in, arguments.split ? FileCells::split : FileCells::keep_quadratic);
   if (arguments.scale != 1) scale_mesh(loaded.mesh, arguments.scale, arguments.in);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   for (const std::string& loss : write_mesh(loaded, arguments.out, arguments.force)) {
     fmt::print(stderr, "{}: {}\n", arguments.out, loss);
   }
-  fmt::print("{}: {} nodes, {} elements\n", arguments.out, loaded.mesh.nodes.size(), loaded.mesh.tets.size());
+  fmt::print("{}: {} nodes, {}\n", arguments.out, loaded.mesh.nodes.size(), describe_cells(loaded.mesh.cells));
   return 0;
 }
 
@@ -38,6 +38,7 @@ void declare(ConvertArguments& arguments, CommandOptions& options) {
       .type("OUT");
   options.value("--scale", arguments.scale, "Multiply coordinates by this factor, e.g. 0.001 for a mesh in mm.")
       .type("FACTOR");
+  options.flag("--split", arguments.split, "Make tetrahedra of quadratic hexahedra and wedges, too.");
   options.flag("--force", arguments.force, "Replace existing files.");
 }
 

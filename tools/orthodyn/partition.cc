@@ -43,9 +43,9 @@ struct Division {
   double imbalance() const { return most_cells / mean_cells; }
 };
 
-Division division_of(const TetMesh& mesh, const CellGraph& graph, int parts) {
+Division division_of(const Mesh& mesh, const CellGraph& graph, int parts) {
   constexpr double kBytes = 3 * sizeof(double);
-  Division division{.parts = parts, .mean_cells = static_cast<double>(mesh.tets.size()) / parts};
+  Division division{.parts = parts, .mean_cells = static_cast<double>(mesh.cells.size()) / parts};
   for (const PartSize& part : part_sizes(mesh, parts_of_cells(graph, parts), parts)) {
     const double bytes = kBytes * static_cast<double>(part.copies + part.copied);
     division.most_cells = std::max(division.most_cells, static_cast<double>(part.cells));
@@ -103,10 +103,10 @@ int partition(const PartitionArguments& arguments) {
   const std::vector<int> numbers = parse_integers("--parts", arguments.parts, 2, kMostParts);
   parts_of_cells({{0, 0}, {}}, 2);  // throws here, before the mesh is read, if PETSc is not available
   const Scene scene = read_scene(read_scene_file(arguments.scene, {.set = arguments.set}));
-  const TetMesh mesh = load_mesh(scene).mesh;
-  fmt::print("{}: {} nodes, {} elements of order {}\n", arguments.scene, mesh.nodes.size(), mesh.tets.size(),
+  const Mesh mesh = load_mesh(scene).mesh;
+  fmt::print("{}: {} nodes, {} elements of order {}\n", arguments.scene, mesh.nodes.size(), mesh.cells.size(),
              mesh.order());
-  const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.tets.size());
+  const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.cells.size());
   const bool with_time = arguments.step > 0;
   fmt::print(
       "per part, the largest: elements (and their ratio to the mean), neighbours (and their mean), nodes copied from "
@@ -116,7 +116,7 @@ int partition(const PartitionArguments& arguments) {
       "parts", "elements", "of mean", "neighbours", "(mean)", "copies", "exchange", "all",
       with_time ? fmt::format(" {:>12} {:>10}", "step", "efficiency") : "");
   for (const int parts : numbers) {
-    if (static_cast<std::size_t>(parts) > mesh.tets.size()) {
+    if (static_cast<std::size_t>(parts) > mesh.cells.size()) {
       fmt::print("{:6}  more parts than elements\n", parts);
       continue;
     }

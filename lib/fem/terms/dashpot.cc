@@ -84,7 +84,7 @@ class DashpotChoice : public TermChoice, public Ends {
                                       body.pattern);
   }
 
-  NodePairs couplings(const TetMesh& mesh) const override { return Ends::couplings(mesh); }
+  NodePairs couplings(const Mesh& mesh) const override { return Ends::couplings(mesh); }
 
   void declare(Traits& traits) const override {
     traits.damping_matrix = traits.dissipative = true;

@@ -8,7 +8,7 @@ void Ends::check(const Config& config) const {
   if (between && anchor) config.at("anchor").fail("is used with selected nodes only; remove 'anchor' or 'between'");
 }
 
-std::vector<Link> Ends::links(const TetMesh& mesh) const {
+std::vector<Link> Ends::links(const Mesh& mesh) const {
   if (between) {
     const int a = nearest_node(mesh, (*between)[0]), b = nearest_node(mesh, (*between)[1]);
     if (a == b) origin.fail("between: the same node is nearest to both points; give points further apart");
@@ -20,7 +20,7 @@ std::vector<Link> Ends::links(const TetMesh& mesh) const {
   return out;
 }
 
-NodePairs Ends::couplings(const TetMesh& mesh) const {
+NodePairs Ends::couplings(const Mesh& mesh) const {
   NodePairs out;
   if (!between) return out;
   for (const Link& link : links(mesh)) out.emplace_back(link.a, link.b);

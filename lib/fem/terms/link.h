@@ -64,8 +64,8 @@ struct Ends : Selection {
   // Whether each node is tied to its own rest position by a link of length zero.
   bool in_place() const { return !between && !anchor; }
   // The links of the body; at least one.
-  std::vector<Link> links(const TetMesh& mesh) const;
-  NodePairs couplings(const TetMesh& mesh) const;
+  std::vector<Link> links(const Mesh& mesh) const;
+  NodePairs couplings(const Mesh& mesh) const;
   void check(const Config& config) const;
 };
 

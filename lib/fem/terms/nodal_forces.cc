@@ -51,7 +51,7 @@ class NodalForcesChoice : public TermChoice {
   SourceLocation origin;
 
  private:
-  NodalForces read(const TetMesh& mesh) const {
+  NodalForces read(const Mesh& mesh) const {
     std::vector<std::string> optional = kPlace;
     optional.insert(optional.begin(), "node");
     const CsvTable table = read_csv(file_, kForce, optional);
@@ -82,7 +82,7 @@ class NodalForcesChoice : public TermChoice {
     return count > 0;
   }
 
-  static int node_numbered(const CsvTable& table, std::size_t row, const TetMesh& mesh) {
+  static int node_numbered(const CsvTable& table, std::size_t row, const Mesh& mesh) {
     const int node = table.index(row, "node");
     if (static_cast<std::size_t>(node) >= mesh.nodes.size())
       throw ConfigError(table.where(row),
@@ -90,7 +90,7 @@ class NodalForcesChoice : public TermChoice {
     return node;
   }
 
-  static int node_near(const NearNodes& near, const Vec3& place, double tolerance, const TetMesh& mesh,
+  static int node_near(const NearNodes& near, const Vec3& place, double tolerance, const Mesh& mesh,
                        const std::string& where) {
     if (const auto node = near.within(tolerance, place)) return *node;
     const int nearest = nearest_node(mesh, place);

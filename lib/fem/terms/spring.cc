@@ -135,7 +135,7 @@ class SpringChoice : public TermChoice, public Ends {
     return std::make_unique<Springs>(each, std::move(springs), body.pattern);
   }
 
-  NodePairs couplings(const TetMesh& mesh) const override { return Ends::couplings(mesh); }
+  NodePairs couplings(const Mesh& mesh) const override { return Ends::couplings(mesh); }
 
   void declare(Traits& traits) const override {
     if (!in_place() && rest_length_ != 0.0) traits.linear = false;

@@ -49,12 +49,12 @@ std::vector<Mat3> axes_of_cells(const AbaqusFile& file, AbaqusLookup& lookup, co
   return axes;
 }
 
-// Stores axes 1 and 2 of each tet as cell data.
+// Stores axes 1 and 2 of each cell as cell data.
 void add_axes(const std::vector<Mat3>& axes, LoadedMesh& loaded) {
-  const TetMesh& mesh = loaded.mesh;
+  const Mesh& mesh = loaded.mesh;
   CellData first{.name = "axis_1", .components = 3}, second{.name = "axis_2", .components = 3};
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const Mat3& Q = axes[mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t])];
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const Mat3& Q = axes[mesh.cell_of.empty() ? e : static_cast<std::size_t>(mesh.cell_of[e])];
     first.values.insert(first.values.end(), Q.col(0).begin(), Q.col(0).end());
     second.values.insert(second.values.end(), Q.col(1).begin(), Q.col(1).end());
   }
@@ -72,7 +72,7 @@ MeshMaterial material_of(const AbaqusFile& file, const AbaqusSection& section) {
   return material;
 }
 
-LoadedMesh build_abaqus_mesh(AbaqusFile file) {
+LoadedMesh build_abaqus_mesh(AbaqusFile file, FileCells cells) {
   check_has_solids(file);
   AbaqusLookup lookup(file);
   const AbaqusRegions regions = add_abaqus_regions(file, lookup);
@@ -89,7 +89,7 @@ LoadedMesh build_abaqus_mesh(AbaqusFile file) {
   std::map<std::string, MeshMaterial> materials;
   for (const auto& [name, section] : regions.section_of_region)
     if (!section->material.empty()) materials.emplace(name, material_of(file, *section));
-  LoadedMesh loaded = build_mesh(std::move(file.draft));
+  LoadedMesh loaded = build_mesh(std::move(file.draft), cells);
   loaded.materials = std::move(materials);
   if (!axes.empty()) add_axes(axes, loaded);
   return loaded;
@@ -100,10 +100,12 @@ const bool abaqus_registered = register_mesh_format(
 
 }  // namespace
 
-LoadedMesh read_abaqus(const std::string& path) { return read_abaqus_text(path, read_text_file(path)); }
+LoadedMesh read_abaqus(const std::string& path, FileCells cells) {
+  return read_abaqus_text(path, read_text_file(path), cells);
+}
 
-LoadedMesh read_abaqus_text(const std::string& path, std::string_view text) {
-  return build_abaqus_mesh(read_abaqus_keywords(path, text));
+LoadedMesh read_abaqus_text(const std::string& path, std::string_view text, FileCells cells) {
+  return build_abaqus_mesh(read_abaqus_keywords(path, text), cells);
 }
 
 }  // namespace orthodyn

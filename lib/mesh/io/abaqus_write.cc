@@ -1,4 +1,4 @@
-// Implements write_abaqus(): nodes, one block of C3D4 or C3D10, then sets and surfaces.
+// Implements write_abaqus(): nodes, blocks of elements, then sets and surfaces.
 #include <algorithm>
 #include <cctype>
 #include <span>
@@ -7,9 +7,9 @@
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_lines.h"
+#include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/split_cells.h"
-#include "lib/mesh/tet_faces.h"
 
 namespace orthodyn {
 namespace {
@@ -38,45 +38,67 @@ void add_set(TextLines& lines, const std::string& keyword, const std::string& na
     lines.line(numbers.first(std::min<std::size_t>(16, numbers.size())));
 }
 
-// 1 to 4 for S1 to S4 if the triangle is that face of the tet (with the same orientation if `oriented`), otherwise 0.
-int side_of(const Tet& tet, const Triangle& triangle, bool oriented) {
-  for (std::size_t side = 0; side < 4; ++side) {
-    const CornerIndices& places = faces_of(CellKind::tet)[side];
-    Triangle face{tet[places[0]], tet[places[1]], tet[places[2]]};
-    for (int turn = 0; oriented && turn < 3; ++turn) {
-      if (face == triangle) return static_cast<int>(side) + 1;
-      std::rotate(face.begin(), face.begin() + 1, face.end());
-    }
-    Triangle a = face, b = triangle;
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    if (!oriented && a == b) return static_cast<int>(side) + 1;
+// The element type of a shape, and the nodes of an element in Abaqus' order: for each place there, the place in the
+// cell.
+struct AbaqusType {
+  const char* name;
+  CellKind kind;
+  std::vector<std::size_t> order = {};  // empty: the same order
+};
+
+const AbaqusType& type_of(CellShape shape) {
+  // C3D27 has the middle of the cell before those of the faces, in the order S1 to S6.
+  static const AbaqusType tet4{"C3D4", CellKind::tet}, tet10{"C3D10", CellKind::tet}, wedge15{"C3D15", CellKind::wedge},
+      wedge18{"C3D15V", CellKind::wedge}, hex20{"C3D20R", CellKind::hexahedron},
+      hex27{"C3D27", CellKind::hexahedron, {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
+                                            14, 15, 16, 17, 18, 19, 26, 24, 25, 22, 21, 23, 20}};
+  switch (shape) {
+    case CellShape::tet10: return tet10;
+    case CellShape::wedge15: return wedge15;
+    case CellShape::wedge18: return wedge18;
+    case CellShape::hex20: return hex20;
+    case CellShape::hex27: return hex27;
+    default: return tet4;
   }
-  return 0;
 }
 
-// The number (from 1) of a tet and the side, 1 to 4, that is this triangle. For an inner triangle, the tet on which it
-// has the same orientation is preferred.
-std::pair<int, int> element_and_side(const TetMesh& mesh, const std::vector<TetFace>& faces, const Triangle& triangle) {
-  Triangle key = triangle;
-  sort_nodes(key);
-  const auto before = [](const TetFace& face, const Triangle& k) { return face.nodes < k; };
-  const auto begin = std::lower_bound(faces.begin(), faces.end(), key, before);
-  for (const bool oriented : {true, false}) {
-    for (auto it = begin; it != faces.end() && it->nodes == key; ++it) {
-      const int side = side_of(mesh.tets[static_cast<std::size_t>(it->tet)], triangle, oriented);
-      if (side > 0) return {it->tet + 1, side};
+// The number (from 1) of an element and the side S1, S2, ... that is this face. For an inner face, the element on which
+// it has the same orientation is preferred.
+std::pair<int, int> element_and_side(const Mesh& mesh, const std::vector<MeshFace>& faces, const FaceCorners& face) {
+  FaceCorners key = face;
+  const bool flipped = key.sort();
+  const auto [begin, end] = find_faces(faces, face);
+  if (begin == end) return {0, 0};  // not a face: the mesh is invalid
+  std::size_t found = begin;
+  for (std::size_t f = begin; f < end; ++f)
+    if (faces[f].flipped != flipped) {  // sides are listed clockwise from outside (split_cells.h)
+      found = f;
+      break;
     }
+  const auto cell = static_cast<std::size_t>(faces[found].cell);
+  const auto& sides = faces_of(type_of(mesh.cells.shape(cell)).kind);
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    std::vector<int> corners;
+    for (const std::size_t k : sides[side]) corners.push_back(mesh.cells[cell][k]);
+    FaceCorners own(corners);
+    own.sort();
+    if (own == key) return {static_cast<int>(cell) + 1, static_cast<int>(side) + 1};
   }
-  return {0, 0};  // not a face: the mesh is invalid
+  return {0, 0};
 }
 
-void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
+// Consecutive elements of a shape form a block.
+void add_abaqus_mesh(TextLines& lines, const Mesh& mesh) {
   lines.text("*HEADING\nwritten by orthodyn\n*NODE\n");
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
-  lines.text(mesh.order() == 1 ? "*ELEMENT, TYPE=C3D4\n" : "*ELEMENT, TYPE=C3D10\n");
-  const Cells cells = tet_cells(mesh);
-  for (std::size_t e = 0; e < cells.size(); ++e) lines.line(e + 1, FromOne{cells[e]});
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const AbaqusType& type = type_of(mesh.cells.shape(e));
+    if (e == 0 || mesh.cells.shape(e) != mesh.cells.shape(e - 1))
+      lines.text(std::string("*ELEMENT, TYPE=") + type.name + "\n");
+    std::vector<int> nodes(mesh.cells[e].begin(), mesh.cells[e].end());
+    for (std::size_t k = 0; k < type.order.size(); ++k) nodes[k] = mesh.cells[e][type.order[k]];
+    lines.line(e + 1, FromOne{nodes});
+  }
 }
 
 // Unique names of sets in the file.
@@ -90,16 +112,16 @@ class AbaqusNames {
   TakenNames taken_{.capitals_differ = false};
 };
 
-void add_regions(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
+void add_regions(TextLines& lines, const Mesh& mesh, Warnings& losses) {
   std::vector<std::vector<int>> members(mesh.region_names.size());
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
     members[static_cast<std::size_t>(mesh.region_of[e])].push_back(static_cast<int>(e) + 1);
   AbaqusNames names(losses);
   for (std::size_t r = 0; r < members.size(); ++r)
     add_set(lines, "ELSET", names.give(mesh.region_names[r]), members[r]);
 }
 
-void add_node_sets(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
+void add_node_sets(TextLines& lines, const Mesh& mesh, Warnings& losses) {
   AbaqusNames names(losses);
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::vector<int> numbers = nodes;
@@ -108,14 +130,14 @@ void add_node_sets(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
   }
 }
 
-void add_surfaces(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
+void add_surfaces(TextLines& lines, const Mesh& mesh, Warnings& losses) {
   if (mesh.surfaces.empty()) return;
   AbaqusNames names(losses);
-  const std::vector<TetFace> faces = sorted_faces(mesh);
-  for (const auto& [name, triangles] : mesh.surfaces) {
+  const std::vector<MeshFace> faces = sorted_faces(mesh);
+  for (const auto& [name, listed] : mesh.surfaces) {
     lines.line("*SURFACE", "TYPE=ELEMENT", "NAME=" + quoted_if_needed(names.give(name)));
-    for (const Triangle& t : triangles) {
-      const auto [element, side] = element_and_side(mesh, faces, t);
+    for (const FaceCorners& face : listed) {
+      const auto [element, side] = element_and_side(mesh, faces, face);
       lines.line(element, "S" + std::to_string(side));
     }
   }

@@ -174,13 +174,15 @@ const bool gmsh_registered[] = {
 
 }  // namespace
 
-LoadedMesh read_gmsh(const std::string& path) { return read_gmsh_text(path, read_text_file(path)); }
+LoadedMesh read_gmsh(const std::string& path, FileCells cells) {
+  return read_gmsh_text(path, read_text_file(path), cells);
+}
 
-LoadedMesh read_gmsh_text(const std::string& path, std::string_view text) {
-  if (is_binary_gmsh(text)) return read_gmsh_text(path, ascii_of_binary_gmsh(path, text));
+LoadedMesh read_gmsh_text(const std::string& path, std::string_view text, FileCells cells) {
+  if (is_binary_gmsh(text)) return read_gmsh_text(path, ascii_of_binary_gmsh(path, text), cells);
   TextTokens tokens(path, text);
   GmshFile file = read_gmsh_sections(tokens);
-  return build_mesh(MeshBuilder(file, tokens).build());
+  return build_mesh(MeshBuilder(file, tokens).build(), cells);
 }
 
 }  // namespace orthodyn

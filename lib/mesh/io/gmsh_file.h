@@ -1,4 +1,4 @@
-// The content of a Gmsh file before it becomes a TetMesh: tags instead of indices, each with its line. Filled by the
+// The content of a Gmsh file before it becomes a Mesh: tags instead of indices, each with its line. Filled by the
 // readers of both formats; read_gmsh() builds the mesh.
 #pragma once
 

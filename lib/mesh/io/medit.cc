@@ -140,14 +140,14 @@ const bool medit_registered =
 
 }  // namespace
 
-LoadedMesh read_medit(const std::string& path) {
+LoadedMesh read_medit(const std::string& path, FileCells cells) {
   if (in_capitals(std::filesystem::path(path).extension().string()) == ".MESHB")
     throw ConfigError(path, "binary Medit files are not supported; write the text form, .mesh");
-  return read_medit_text(path, read_text_file(path));
+  return read_medit_text(path, read_text_file(path), cells);
 }
 
-LoadedMesh read_medit_text(const std::string& path, std::string_view text) {
-  return build_mesh(MeditReader(path, text).read());
+LoadedMesh read_medit_text(const std::string& path, std::string_view text, FileCells cells) {
+  return build_mesh(MeditReader(path, text).read(), cells);
 }
 
 }  // namespace orthodyn

@@ -92,8 +92,8 @@ void make_names_utf8(LoadedMesh& loaded, const std::string& path) {
         fmt::format("{}: names that are not UTF-8 were read as Latin-1: {}", path, join(names.converted())));
 }
 
-LoadedMesh read_mesh(const std::string& path) {
-  LoadedMesh loaded = mesh_format_of(path).read(path);
+LoadedMesh read_mesh(const std::string& path, FileCells cells) {
+  LoadedMesh loaded = mesh_format_of(path).read(path, cells);
   make_names_utf8(loaded, path);
   return loaded;
 }
@@ -114,10 +114,10 @@ Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool repl
   return std::move(written.losses);
 }
 
-void scale_mesh(TetMesh& mesh, double factor, const std::string& source) {
+void scale_mesh(Mesh& mesh, double factor, const std::string& source) {
   for (Vec3& x : mesh.nodes) x *= factor;
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    if (std::isnormal(signed_volume6(mesh, mesh.tets[e]) / 6)) continue;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    if (std::isnormal(cell_volume(mesh, e))) continue;
     throw ConfigError(
         source,
         fmt::format("scaled by {}, the volume of element {} cannot be represented; check the scale", factor, e));

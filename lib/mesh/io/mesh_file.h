@@ -8,7 +8,7 @@
 namespace orthodyn {
 
 // All names in the result are UTF-8. Throws ConfigError.
-LoadedMesh read_mesh(const std::string& path);
+LoadedMesh read_mesh(const std::string& path, FileCells cells = FileCells::keep_quadratic);
 
 // Converts names of regions, sets, materials and cell data that are not UTF-8 from Latin-1, with a warning.
 void make_names_utf8(LoadedMesh& loaded, const std::string& path);
@@ -19,7 +19,7 @@ void make_names_utf8(LoadedMesh& loaded, const std::string& path);
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace);
 
 // Multiplies all coordinates. Throws ConfigError at `source` if the volume of an element over- or underflows.
-void scale_mesh(TetMesh& mesh, double factor, const std::string& source);
+void scale_mesh(Mesh& mesh, double factor, const std::string& source);
 
 // The unit system of a mesh file. mm_t_s: mm, t, s; forces are then in N and stresses in MPa.
 enum class FileUnits { si, mm_t_s };

@@ -28,7 +28,7 @@ struct MeshFormat {
   std::string name;                  // "Gmsh"
   std::vector<std::string> endings;  // ".msh", lower case; unique among all formats
   // Throws ConfigError "file:line: found, remedy".
-  LoadedMesh (*read)(const std::string& path);
+  LoadedMesh (*read)(const std::string& path, FileCells cells);
   // Returns the texts of the files; does not access the disk. Null: the format is read-only.
   WrittenMesh (*write)(const LoadedMesh& loaded) = nullptr;
   bool brings_materials = false;  // files may define materials

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "lib/core/errors.h"
 #include "lib/mesh/io/middle_order.h"
 #include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/io/text_tokens.h"
@@ -141,7 +142,7 @@ std::map<std::string, int> numbers_of(const std::string& prefix, const std::vect
 }
 
 // The marker of each node, 0 for none. A node in several sets gets the marker of the first.
-std::vector<int> markers_of(const TetMesh& mesh, Warnings& losses) {
+std::vector<int> markers_of(const Mesh& mesh, Warnings& losses) {
   const auto numbers = numbers_of("marker", names_of(mesh.node_sets), losses);
   std::vector<int> markers(mesh.nodes.size(), 0);
   for (const auto& [name, nodes] : mesh.node_sets) {
@@ -157,7 +158,7 @@ std::vector<int> markers_of(const TetMesh& mesh, Warnings& losses) {
   return markers;
 }
 
-std::string node_text(const TetMesh& mesh, Warnings& losses) {
+std::string node_text(const Mesh& mesh, Warnings& losses) {
   const std::vector<int> markers = markers_of(mesh, losses);
   TextLines lines;
   lines.line(mesh.nodes.size(), 3, 0, 1);
@@ -165,31 +166,30 @@ std::string node_text(const TetMesh& mesh, Warnings& losses) {
   return lines.take();
 }
 
-std::string ele_text(const TetMesh& mesh, Warnings& losses) {
+std::string ele_text(const Mesh& mesh, Warnings& losses) {
   const bool plain = mesh.region_names == std::vector<std::string>{"body"};
   std::map<std::string, int> numbers;
   if (!plain) numbers = numbers_of("region", mesh.region_names, losses);
   TextLines lines;
-  const Cells cells = tet_cells(mesh);
-  lines.line(mesh.tets.size(), cells.nodes_per_cell(), plain ? 0 : 1);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+  lines.line(mesh.cells.size(), mesh.cells[0].size(), plain ? 0 : 1);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     lines.add(e + 1);
-    lines.add(FromOne{cells[e]});
+    lines.add(FromOne{mesh.cells[e]});
     if (!plain) lines.add(numbers.at(mesh.region_names[static_cast<std::size_t>(mesh.region_of[e])]));
     lines.end_line();
   }
   return lines.take();
 }
 
-std::string face_text(const TetMesh& mesh, Warnings& losses) {
+std::string face_text(const Mesh& mesh, Warnings& losses) {
   const auto numbers = numbers_of("marker", names_of(mesh.surfaces), losses);
   std::size_t count = 0;
-  for (const auto& [name, triangles] : mesh.surfaces) count += triangles.size();
+  for (const auto& [name, listed] : mesh.surfaces) count += listed.size();
   TextLines lines;
   lines.line(count, 1);
   std::size_t face = 0;
-  for (const auto& [name, triangles] : mesh.surfaces) {
-    const Cells faces = face_cells(mesh, triangles);
+  for (const auto& [name, listed] : mesh.surfaces) {
+    const Cells faces = face_cells(mesh, listed);
     for (std::size_t k = 0; k < faces.size(); ++k) lines.line(++face, FromOne{faces[k]}, numbers.at(name));
   }
   return lines.take();
@@ -200,7 +200,7 @@ const bool tetgen_registered =
 
 }  // namespace
 
-LoadedMesh read_tetgen(const std::string& path) {
+LoadedMesh read_tetgen(const std::string& path, FileCells) {
   const std::string stem = std::filesystem::path(path).replace_extension().string();
   const std::string node = read_text_file(stem + ".node");
   const std::string ele = read_text_file(stem + ".ele");
@@ -213,7 +213,8 @@ LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts) {
 }
 
 WrittenMesh write_tetgen(const LoadedMesh& loaded) {
-  const TetMesh& mesh = loaded.mesh;
+  const Mesh& mesh = loaded.mesh;
+  if (!mesh.has_tets_only()) throw ConfigError("TetGen files hold tetrahedra only; write .vtu, .msh or .inp");
   WrittenMesh written;
   written.files.push_back({".node", node_text(mesh, written.losses)});
   written.files.push_back({".ele", ele_text(mesh, written.losses)});

@@ -114,11 +114,11 @@ std::map<std::string, MeshMaterial> add_regions(VegaFile& file) {
   return materials;
 }
 
-LoadedMesh build_vega_mesh(VegaFile& file) {
+LoadedMesh build_vega_mesh(VegaFile& file, FileCells cells) {
   if (file.draft.cells.empty()) file.draft.fail({}, "no elements");
   auto materials = add_regions(file);
   warn_of_unused_sets(file);
-  LoadedMesh loaded = build_mesh(std::move(file.draft));
+  LoadedMesh loaded = build_mesh(std::move(file.draft), cells);
   loaded.materials = std::move(materials);
   return loaded;
 }
@@ -154,17 +154,19 @@ const bool vega_registered = register_mesh_format({.name = "Vega",
 
 }  // namespace
 
-LoadedMesh read_vega(const std::string& path) { return read_vega_text(path, read_text_file(path)); }
-
-LoadedMesh read_vega_text(const std::string& path, std::string_view text) {
-  VegaFile file = read_vega_sections(path, text);
-  return build_vega_mesh(file);
+LoadedMesh read_vega(const std::string& path, FileCells cells) {
+  return read_vega_text(path, read_text_file(path), cells);
 }
 
-LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed) {
+LoadedMesh read_vega_text(const std::string& path, std::string_view text, FileCells cells) {
+  VegaFile file = read_vega_sections(path, text);
+  return build_vega_mesh(file, cells);
+}
+
+LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed, FileCells cells) {
   VegaFile file = read_vega_sections(path, read_text_file(path));
   add_fixed(fixed, file);
-  return build_vega_mesh(file);
+  return build_vega_mesh(file, cells);
 }
 
 }  // namespace orthodyn

@@ -53,18 +53,18 @@ std::string number_list(const std::vector<int>& indices) {
   return text;
 }
 
-void add_vega_mesh(TextLines& lines, const TetMesh& mesh) {
+void add_vega_mesh(TextLines& lines, const Mesh& mesh) {
   lines.line("*VERTICES");
   lines.line(mesh.nodes.size(), 3, 0, 0);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
   lines.text("\n*ELEMENTS\nTET\n");
-  lines.line(mesh.tets.size(), 4, 0);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) lines.line(e + 1, FromOne{mesh.tets[e]});
+  lines.line(mesh.cells.size(), 4, 0);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) lines.line(e + 1, FromOne{mesh.cells.corners(e)});
 }
 
-std::vector<int> elements_in(const TetMesh& mesh, int region) {
+std::vector<int> elements_in(const Mesh& mesh, int region) {
   std::vector<int> elements;
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
     if (mesh.region_of[e] == region) elements.push_back(static_cast<int>(e));
   return elements;
 }

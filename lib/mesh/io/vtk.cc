@@ -217,10 +217,12 @@ const bool vtk_registered = register_mesh_format({.name = "VTK legacy", .endings
 
 }  // namespace
 
-LoadedMesh read_vtk(const std::string& path) { return read_vtk_text(path, read_text_file(path)); }
+LoadedMesh read_vtk(const std::string& path, FileCells cells) {
+  return read_vtk_text(path, read_text_file(path), cells);
+}
 
-LoadedMesh read_vtk_text(const std::string& path, std::string_view text) {
-  return build_vtk_mesh(VtkReader(path, text).read());
+LoadedMesh read_vtk_text(const std::string& path, std::string_view text, FileCells cells) {
+  return build_vtk_mesh(VtkReader(path, text).read(), cells);
 }
 
 }  // namespace orthodyn

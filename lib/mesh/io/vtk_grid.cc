@@ -203,14 +203,14 @@ void add_node_sets(const VtkGrid& grid, MeshDraft& draft) {
   }
 }
 
-// Each tet gets the values of the cell that it was cut from.
-std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<std::size_t>& solids,
-                                   const TetMesh& mesh) {
+// Each cell gets the values of the cell of the file that it is, or was cut from.
+std::vector<CellData> data_of_cells(std::vector<CellData> all, const std::vector<std::size_t>& solids,
+                                    const Mesh& mesh) {
   for (CellData& data : all) {
     const auto components = static_cast<std::size_t>(data.components);
     std::vector<double> values;
-    values.reserve(components * mesh.tets.size());
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    values.reserve(components * mesh.cells.size());
+    for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
       const std::size_t cell = mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t]);
       const auto first = data.values.begin() + static_cast<std::ptrdiff_t>(components * solids[cell]);
       values.insert(values.end(), first, first + data.components);
@@ -272,7 +272,7 @@ std::vector<double> vtk_numbers(std::string_view text) {
   return out;
 }
 
-LoadedMesh build_vtk_mesh(VtkGrid grid) {
+LoadedMesh build_vtk_mesh(VtkGrid grid, FileCells cells) {
   check_sizes(grid);
   MeshDraft draft;
   draft.files = {grid.path};
@@ -281,8 +281,8 @@ LoadedMesh build_vtk_mesh(VtkGrid grid) {
   add_nodes_and_cells(grid, solids, draft);
   add_regions(grid, solids, draft);
   add_node_sets(grid, draft);
-  LoadedMesh loaded = build_mesh(std::move(draft));
-  loaded.cell_data = data_of_tets(std::move(grid.cell_data), solids, loaded.mesh);
+  LoadedMesh loaded = build_mesh(std::move(draft), cells);
+  loaded.cell_data = data_of_cells(std::move(grid.cell_data), solids, loaded.mesh);
   return loaded;
 }
 

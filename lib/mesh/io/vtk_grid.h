@@ -29,7 +29,7 @@ struct VtkGrid {
 // "region<k>", in ascending order. Point data "nodes:NAME" define the node set NAME: all points with a nonzero value.
 // Keeps all cell data; each tet gets the values of its cell. Throws ConfigError "file: found, remedy"; cells and points
 // are numbered from 0.
-LoadedMesh build_vtk_mesh(VtkGrid grid);
+LoadedMesh build_vtk_mesh(VtkGrid grid, FileCells cells);
 
 // A number type.
 struct VtkType {

@@ -217,19 +217,17 @@ const bool vtu_registered = register_mesh_format({.name = "VTK XML",
 
 }  // namespace
 
-LoadedMesh read_vtu(const std::string& path) { return read_vtu_text(path, read_text_file(path)); }
+LoadedMesh read_vtu(const std::string& path, FileCells cells) {
+  return read_vtu_text(path, read_text_file(path), cells);
+}
 
-LoadedMesh read_vtu_text(const std::string& path, std::string_view text) {
-  return build_vtk_mesh(VtuReader(path, text).read());
+LoadedMesh read_vtu_text(const std::string& path, std::string_view text, FileCells cells) {
+  return build_vtk_mesh(VtuReader(path, text).read(), cells);
 }
 
 WrittenMesh write_vtu(const LoadedMesh& loaded) {
-  const TetMesh& mesh = loaded.mesh;
-  const Cells cells = tet_cells(mesh);
-  VtuGrid grid{.points = mesh.nodes,
-               .cell_type = mesh.order() == 1 ? kVtkTetra : kVtkQuadraticTetra,
-               .points_per_cell = static_cast<std::size_t>(cells.nodes_per_cell()),
-               .connectivity = cells.nodes()};
+  const Mesh& mesh = loaded.mesh;
+  VtuGrid grid{.points = mesh.nodes, .cells = mesh.cells};
   for (const auto& [name, nodes] : mesh.node_sets)
     grid.point_data.push_back(membership(name, nodes, mesh.nodes.size()));
   grid.cell_data.push_back(

@@ -119,31 +119,34 @@ void add_points(VtuFile& file, const VtuGrid& grid, VtuStorage storage) {
   file.text("</Points>\n");
 }
 
-void add_cells(VtuFile& file, const VtuGrid& grid, std::size_t cells) {
-  std::vector<double> ends(cells);
-  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<double>((c + 1) * grid.points_per_cell);
+void add_cells(VtuFile& file, const Cells& cells) {
+  std::vector<double> ends, types;
+  double end = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    ends.push_back(end += static_cast<double>(cells[c].size()));
+    types.push_back(topology(cells.shape(c)).vtk_type);
+  }
   file.text("<Cells>\n");
-  file.array({"connectivity", 1, VtuNumber::int32, {grid.connectivity.begin(), grid.connectivity.end()}});
+  file.array({"connectivity", 1, VtuNumber::int32, {cells.nodes().begin(), cells.nodes().end()}});
   file.array({"offsets", 1, VtuNumber::int32, std::move(ends)});
-  file.array({"types", 1, VtuNumber::uint8, std::vector<double>(cells, grid.cell_type)});
+  file.array({"types", 1, VtuNumber::uint8, std::move(types)});
   file.text("</Cells>\n");
 }
 
 }  // namespace
 
 std::vector<std::string> vtu_text(const VtuGrid& grid, VtuStorage storage) {
-  const std::size_t cells = grid.connectivity.size() / grid.points_per_cell;
   VtuFile file(storage);
   file.text("<UnstructuredGrid>\n");
   add_region_names(file, grid.region_names);
-  file.text(
-      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", grid.points.size(), cells));
+  file.text(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", grid.points.size(),
+                        grid.cells.size()));
   for (const VtuArray& data : grid.point_data) file.array(data);
   file.text("</PointData>\n<CellData>\n");
   for (const VtuArray& data : grid.cell_data) file.array(data);
   file.text("</CellData>\n");
   add_points(file, grid, storage);
-  add_cells(file, grid, cells);
+  add_cells(file, grid.cells);
   file.text("</Piece>\n</UnstructuredGrid>\n");
   return file.finish();
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/cells.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -23,12 +24,9 @@ struct VtuArray {
   std::vector<double> values = {};
 };
 
-// A grid whose cells all have the same type.
 struct VtuGrid {
   std::span<const Vec3> points;  // m
-  int cell_type;                 // vtkCellType.h
-  std::size_t points_per_cell;
-  std::vector<int> connectivity;  // point indices, cell by cell
+  Cells cells;                   // indices of points
   std::vector<VtuArray> point_data = {}, cell_data = {};
   std::vector<std::string> region_names = {};  // field data "region_names", by number; may be empty
 };

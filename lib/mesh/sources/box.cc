@@ -17,16 +17,24 @@ struct EnumNames<BoxMesh::Split> {
       {{BoxMesh::Split::five, "five"}, {BoxMesh::Split::six, "six"}}};
 };
 
+template <>
+struct EnumNames<BoxMesh::Elements> {
+  static constexpr std::array<std::pair<BoxMesh::Elements, const char*>, 3> list{
+      {{BoxMesh::Elements::tetrahedra, "tetrahedra"},
+       {BoxMesh::Elements::wedges, "wedges"},
+       {BoxMesh::Elements::hexahedra, "hexahedra"}}};
+};
+
 namespace {
 
 // Makes a region of the elements with their centroid in `part`; takes them from earlier parts.
-void add_region(TetMesh& mesh, const std::string& name, const BoxSelection& part) {
+void add_region(Mesh& mesh, const std::string& name, const BoxSelection& part) {
   if (name == mesh.region_names.front())
     part.origin.fail("'" + name + "' is the region of the remaining elements; choose another name");
   const int region = static_cast<int>(mesh.region_names.size());
   mesh.region_names.push_back(name);
   bool any = false;
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     if (!part.contains(centroid(mesh, static_cast<int>(e)))) continue;
     mesh.region_of[e] = region;
     any = true;
@@ -42,6 +50,10 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
+            .key("elements", &BoxMesh::elements,
+                 "tetrahedra; hexahedra: one element of 20 nodes per cell, for plates and other thin bodies; wedges: "
+                 "two of "
+                 "15 nodes per cell, with triangles in planes of constant z.")
             .key("split", &BoxSource::split_,
                  "Tets per cell: five (mirror symmetric for even cell counts) or six (all cells alike). Default: six "
                  "for quadratic tetrahedra in cells more than three times wider than thick, where five are far too "
@@ -50,6 +62,15 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
+              if (box.elements != Elements::tetrahedra) {
+                if (box.order == 1)
+                  config.at("order").fail(
+                      "linear hexahedra and wedges cannot be computed; leave out `order`, or use tetrahedra");
+                if (box.split_) config.at("split").fail("divides cells into tetrahedra; remove it, or `elements`");
+                return check_mesh_size(
+                    (box.elements == Elements::wedges ? 2.0 : 1.0) * box.cells[0] * box.cells[1] * box.cells[2],
+                    config.at("cells"));
+              }
               if (!box.split_) config.fill("split", Value<Split>::yaml(box.chosen_split()));
               const double tets_per_cell = box.chosen_split() == BoxMesh::Split::five ? 5 : 6;
               check_mesh_size(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
@@ -59,7 +80,7 @@ class BoxSource : public MeshSource, public BoxMesh {
   LoadedMesh load() const override {
     BoxMesh box = *this;
     box.split = chosen_split();
-    TetMesh mesh = make_box(box);
+    Mesh mesh = make_box(box);
     for (const auto& [name, part] : parts_) add_region(mesh, name, part);
     set_order(mesh, order);
     return {std::move(mesh), {}};
@@ -82,7 +103,7 @@ class BoxSource : public MeshSource, public BoxMesh {
 };
 
 const bool box_registered = Registry<MeshSource>::add<BoxSource>(
-    "box", "A box of tetrahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1.");
+    "box", "A box of tetrahedra, wedges or hexahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1.");
 
 }  // namespace
 }  // namespace orthodyn

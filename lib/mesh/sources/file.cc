@@ -26,6 +26,10 @@ namespace {
 
 constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every tetrahedron into eight.";
 const Rule kRefineRule{.range = {0, 6}};
+constexpr const char* kSplitSentence =
+    "true: hexahedra and wedges become tetrahedra. false: quadratic ones stay as they are, with `order: 2` linear "
+    "ones, "
+    "too. Pyramids, and elements with repeated nodes, are always split, and with them all elements.";
 constexpr const char* kScale = "Factor of all coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
@@ -37,7 +41,13 @@ struct FileOptions {
   FilePath file;
   double scale = 1;
   std::optional<int> order;
+  bool split = false;
   int refinements = 0;
+
+  // Linear hexahedra and wedges become quadratic with `order: 2`, and tetrahedra otherwise.
+  FileCells cells() const {
+    return split || order == 1 ? FileCells::split : order == 2 ? FileCells::keep : FileCells::keep_quadratic;
+  }
 
   LoadedMesh apply_options(LoadedMesh loaded) const {
     scale_mesh(loaded.mesh, scale, file.path);
@@ -62,6 +72,7 @@ class FileSource : public MeshSource, public FileOptions {
                  "Units of the coordinates, and of the materials of the file if the scene has no `materials`: SI, or "
                  "mm_t_s (mm, t, s; moduli in MPa, densities in t/mm^3).")
             .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
+            .key("split", &FileSource::split, kSplitSentence)
             .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule)
             .check([](const FileSource& source, const Config& config) {
               if (source.units_ != FileUnits::si && source.scale != 1)
@@ -72,7 +83,7 @@ class FileSource : public MeshSource, public FileOptions {
   }
   LoadedMesh load() const override {
     require_file(file);
-    LoadedMesh loaded = read_mesh(file.path);
+    LoadedMesh loaded = read_mesh(file.path, cells());
     convert_to_si(loaded, units_, file.path);
     return apply_options(std::move(loaded));
   }
@@ -90,12 +101,13 @@ class GmshSource : public MeshSource, public FileOptions {
                                    {.required = true})
                               .key("scale", &GmshSource::scale, kScale, {.range = kPositive})
                               .key("order", &GmshSource::order, kFileOrderSentence, kOrderRule)
+                              .key("split", &GmshSource::split, kSplitSentence)
                               .key("refine", &GmshSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
     require_file(file);
-    LoadedMesh loaded = read_gmsh(file.path);
+    LoadedMesh loaded = read_gmsh(file.path, cells());
     make_names_utf8(loaded, file.path);
     return apply_options(std::move(loaded));
   }
@@ -111,13 +123,14 @@ class VegaSource : public MeshSource, public FileOptions {
             .key("fixed", &VegaSource::fixed_, "A .bou file: its vertices become the node set `fixed`.")
             .key("scale", &VegaSource::scale, kScale, {.range = kPositive})
             .key("order", &VegaSource::order, kFileOrderSentence, kOrderRule)
+            .key("split", &VegaSource::split, kSplitSentence)
             .key("refine", &VegaSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
     require_file(file);
     if (fixed_) require_file(*fixed_);
-    LoadedMesh loaded = fixed_ ? read_vega(file.path, {fixed_->path}) : read_vega(file.path);
+    LoadedMesh loaded = fixed_ ? read_vega(file.path, {fixed_->path}, cells()) : read_vega(file.path, cells());
     make_names_utf8(loaded, file.path);
     return apply_options(std::move(loaded));
   }

@@ -8,9 +8,9 @@ namespace {
 
 constexpr Range kGrading{0.01, 100};
 
-// Keys of both sources. `Mesh` is CylinderMesh or TubeMesh.
-template <class Mesh>
-class RoundSource : public MeshSource, public Mesh {
+// Keys of both sources. `Round` is CylinderMesh or TubeMesh.
+template <class Round>
+class RoundSource : public MeshSource, public Round {
  public:
   RoundSource() { this->order = kDefaultOrder; }
 
@@ -19,8 +19,8 @@ class RoundSource : public MeshSource, public Mesh {
 
  protected:
   // The description of the mesh with the cell counts and the grading from the keys.
-  Mesh mesh() const {
-    Mesh mesh = *this;
+  Round mesh() const {
+    Round mesh = *this;
     mesh.cells = {.around = counts[0], .through = counts[1], .along = counts[2], .grading = grading};
     return mesh;
   }

@@ -11,13 +11,13 @@ namespace orthodyn {
 inline constexpr const char* kOrderSentence =
     "2: quadratic tetrahedra, with mid-edge nodes. 1: linear ones, too stiff in bending and torsion.";
 inline constexpr const char* kFileOrderSentence =
-    "2: quadratic tetrahedra, with mid-edge nodes. 1: linear ones, too stiff in bending and torsion. Default: the "
+    "2: quadratic elements, with mid-edge nodes. 1: linear tetrahedra, too stiff in bending and torsion. Default: the "
     "order of the file.";
 inline constexpr int kDefaultOrder = 2;  // of generated meshes
 inline const Rule kOrderRule{.range = {1, 2}};
 
 // Converts the mesh to this order, if one is given. Returns the node sets that become empty: those of mid-edge nodes.
-inline std::vector<std::string> set_order(TetMesh& mesh, std::optional<int> order) {
+inline std::vector<std::string> set_order(Mesh& mesh, std::optional<int> order) {
   if (!order || *order == mesh.order()) return {};
   if (*order == 1) return make_linear(mesh);
   make_quadratic(mesh);

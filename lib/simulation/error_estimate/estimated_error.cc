@@ -45,7 +45,7 @@ std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::v
   for (std::size_t r = 0; r < parts.elastic.size(); ++r)
     for (const int cell : parts.elastic[r]->definition().cells) {
       const auto c = static_cast<std::size_t>(cell);
-      const Eigen::MatrixXd M = mesh.type.consistent_mass(mesh.positions(c), parts.densities[r]);
+      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(mesh.positions(c), parts.densities[r]);
       const auto nodes = mesh.cells[c];
       ElementType::Nodes at(3, M.cols());
       for (std::size_t k = 0; k < shapes.size(); ++k) {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/element/tet10.h"
 #include "lib/material_axes/axes_source.h"
+#include "lib/mesh/element_of_shape.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/refine.h"
 
@@ -21,10 +21,10 @@ constexpr int kChildren = 8;
 // Gives each fine element the material axes of its parent element.
 class AxesOfParents : public AxesSource {
  public:
-  AxesOfParents(std::shared_ptr<const AxesSource> source, std::shared_ptr<const TetMesh> coarse, int children)
+  AxesOfParents(std::shared_ptr<const AxesSource> source, std::shared_ptr<const Mesh> coarse, int children)
       : source_(std::move(source)), coarse_(std::move(coarse)), children_(children) {}
   bool uniform() const override { return source_->uniform(); }
-  AxesField field(const TetMesh&, Warnings& notes) const override {
+  AxesField field(const Mesh&, Warnings& notes) const override {
     return [field = source_->field(*coarse_, notes), n = children_](const Vec3& point, int cell) {
       return field(point, cell / n);
     };
@@ -32,15 +32,15 @@ class AxesOfParents : public AxesSource {
 
  private:
   std::shared_ptr<const AxesSource> source_;
-  std::shared_ptr<const TetMesh> coarse_;
+  std::shared_ptr<const Mesh> coarse_;
   int children_;
 };
 
-int children_of(const TetMesh& coarse) { return coarse.order() == 1 ? 1 : kChildren; }
+int children_of(const Mesh& coarse) { return coarse.order() == 1 ? 1 : kChildren; }
 
-Scene finer(const Scene& scene, const TetMesh& mesh) {
+Scene finer(const Scene& scene, const Mesh& mesh) {
   Scene out = scene;
-  const auto coarse = std::make_shared<const TetMesh>(mesh);
+  const auto coarse = std::make_shared<const Mesh>(mesh);
   auto loaded = std::make_shared<LoadedMesh>();
   loaded->mesh = mesh;
   if (mesh.order() == 1) make_quadratic(loaded->mesh);
@@ -52,7 +52,7 @@ Scene finer(const Scene& scene, const TetMesh& mesh) {
   return out;
 }
 
-// Barycentric coordinates of a cell's node.
+// Barycentric coordinates of a tetrahedron's node.
 Barycentric place_of(std::size_t node) {
   if (node < 4) return Barycentric::Unit(static_cast<Eigen::Index>(node));
   const auto [i, j] = kTetEdges[node - 4];
@@ -61,6 +61,24 @@ Barycentric place_of(std::size_t node) {
 
 Barycentric place_in(std::span<const int> cell, int node) {
   return place_of(static_cast<std::size_t>(std::find(cell.begin(), cell.end(), node) - cell.begin()));
+}
+
+// The shape functions of a tetrahedron at a mid-edge node of one of its children, whose corners are nodes of it.
+Vector shape_at_middle(std::span<const int> parent, std::span<const int> child, const std::vector<int>& edge) {
+  const auto corner = [&](int k) { return child[static_cast<std::size_t>(k)]; };
+  const Barycentric L = (place_in(parent, corner(edge[0])) + place_in(parent, corner(edge[1]))) / 2;
+  return parent.size() == 4 ? Vector(L) : Vector(Tet10::shape(L));
+}
+
+// The shape functions of a hexahedron or wedge at a node of a child: the mean of these corners of the child.
+Vector shape_in_child(CellShape shape, const std::vector<Vec3>& child, const std::vector<int>& corners) {
+  Vec3 place = Vec3::Zero();
+  for (const int k : corners) place += child[static_cast<std::size_t>(k)] / static_cast<double>(corners.size());
+  Vector out;
+  with_element(shape, [&]<class E>() {
+    if constexpr (E::kNodes > 10) out = E::shape(place);
+  });
+  return out;
 }
 
 }  // namespace
@@ -82,26 +100,29 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
 
 double FinerModel::estimated_unknowns(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
 
-// Corners of fine cells are nodes of the coarse mesh with the same numbers; the other nodes lie between two of these.
-FinerModel::Rows FinerModel::nodal_lift(const TetMesh& fine) const {
-  const TetMesh& mesh = coarse_.parts().mesh;
-  const Cells parents = tet_cells(mesh), cells = tet_cells(fine);
+// Nodes of the coarse mesh keep their numbers.
+FinerModel::Rows FinerModel::nodal_lift(const Mesh& fine) const {
+  const Mesh& mesh = coarse_.parts().mesh;
   const auto children = static_cast<std::size_t>(children_of(mesh));
   std::vector<char> known(fine.nodes.size(), 0);
   std::fill_n(known.begin(), mesh.nodes.size(), 1);
   Triplets entries;
   for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) entries.emplace_back(node, node, 1.0);
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const auto parent = parents[k / children];
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const int node = cells[k][4 + e];
+  for (std::size_t k = 0; k < fine.cells.size(); ++k) {
+    const auto parent = mesh.cells[k / children], child = fine.cells[k];
+    const CellShape shape = mesh.cells.shape(k / children);
+    const bool is_tet = topology(shape).corners == 4;
+    const CellTopology& cell = topology(fine.cells.shape(k));
+    for (int a = is_tet ? cell.corners : 0; a < cell.nodes; ++a) {
+      const int node = child[static_cast<std::size_t>(a)];
       if (std::exchange(known[static_cast<std::size_t>(node)], 1)) continue;
-      const Barycentric L =
-          (place_in(parent, cells[k][kTetEdges[e][0]]) + place_in(parent, cells[k][kTetEdges[e][1]])) / 2;
-      const Vector shape = mesh.order() == 1 ? Vector(L) : Vector(Tet10::shape(L));
-      for (std::size_t a = 0; a < parent.size(); ++a)
-        if (const double value = shape[static_cast<Eigen::Index>(a)]; value != 0)
-          entries.emplace_back(node, parent[a], value);
+      const std::vector<int> corners =
+          a < cell.corners ? std::vector{a} : cell.middles[static_cast<std::size_t>(a - cell.corners)];
+      const Vector N = is_tet ? shape_at_middle(parent, child, corners)
+                              : shape_in_child(shape, corners_of_children(shape)[k % children], corners);
+      for (std::size_t b = 0; b < parent.size(); ++b)
+        if (const double value = N[static_cast<Eigen::Index>(b)]; value != 0)
+          entries.emplace_back(node, parent[b], value);
     }
   }
   Rows out(static_cast<Eigen::Index>(fine.nodes.size()), static_cast<Eigen::Index>(mesh.nodes.size()));

@@ -32,7 +32,7 @@ class FinerModel {
 
  private:
   using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-  Rows nodal_lift(const TetMesh& fine) const;
+  Rows nodal_lift(const Mesh& fine) const;
 
   const FemModel& coarse_;
   BuiltScene built_;

@@ -91,7 +91,7 @@ Vector acceleration(const FemModel& model, const State& s) {
     parts.mass->solve(a);
     return a;
   }
-  std::vector<double> density(parts.mesh.tets.size());
+  std::vector<double> density(parts.mesh.cells.size());
   for (std::size_t r = 0; r < parts.elastic.size(); ++r)
     for (int k = 0; k < parts.elastic[r]->size(); ++k)
       density[static_cast<std::size_t>(parts.elastic[r]->cell(k))] = parts.densities[r];

@@ -35,18 +35,24 @@ Contrast contrast(const Mat6& stiffness) {
   return {pairs.values[5] / pairs.values[0], along_volume > kVolumetric};
 }
 
-// Longest edge over smallest height.
-double flatness(const TetMesh& mesh, const Tet& tet) {
-  const auto at = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[k])]; };
+double volume_of_corners(const Mesh& mesh, std::size_t tet) {
+  const auto nodes = mesh.cells[tet];
+  return std::abs(signed_volume6(mesh, {nodes[0], nodes[1], nodes[2], nodes[3]})) / 6;
+}
+
+// Longest edge over smallest height of a tetrahedron.
+double flatness(const Mesh& mesh, std::size_t tet) {
+  const auto at = [&](std::size_t k) -> const Vec3& { return mesh.node(mesh.cells[tet][k]); };
   double longest = 0, largest = 0;  // longest edge, twice the largest face area
   for (const auto& [i, j] : kTetEdges) longest = std::max(longest, (at(i) - at(j)).norm());
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
     largest = std::max(largest, (at(b) - at(a)).cross(at(c) - at(a)).norm());
   }
-  return longest * largest / std::abs(signed_volume6(mesh, tet));
+  return longest * largest / (6 * volume_of_corners(mesh, tet));
 }
 
+// Of the tetrahedra; other elements do not lock if they are flat.
 struct Bending {
   double share = 0;     // part of the squared strains that varies within cells; 0 for linear cells
   double flatness = 0;  // mean, weighted by squared strains
@@ -57,17 +63,18 @@ Bending bending(const FemModel& model, const State& state) {
   const NodalExpansion nodal(parts, state.t, state.q, Vector::Zero(state.q.size()));
   double all = 0, varying = 0, flat = 0;
   for (const auto& term : parts.elastic) {
+    if (term->size() == 0 || parts.mesh.cells.corners(static_cast<std::size_t>(term->cell(0))).size() != 4) continue;
     const auto strains = term->strains(nodal.state());
     const Eigen::Index points = term->num_points();
     for (int k = 0; k < term->size(); ++k) {
       const auto own = strains.middleCols(points * k, points);
       const Vec6 mean = own.rowwise().mean();
-      const double volume =
-          std::abs(signed_volume6(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]));
+      const auto tet = static_cast<std::size_t>(term->cell(k));
+      const double volume = 6 * volume_of_corners(parts.mesh, tet);
       const double square = volume * own.squaredNorm();
       all += square;
       varying += volume * (own.colwise() - mean).squaredNorm();
-      flat += square * flatness(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]);
+      flat += square * flatness(parts.mesh, tet);
     }
   }
   if (!(all > 0)) return {};

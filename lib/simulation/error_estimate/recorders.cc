@@ -48,7 +48,7 @@ Eigen::MatrixXd global_mass_product(const FemModel& model, const Eigen::MatrixXd
   return out;
 }
 
-ProbeRecorder::ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs,
+ProbeRecorder::ProbeRecorder(const Named<Probe>& probes, const Mesh& mesh, std::size_t outputs,
                              std::vector<Quantity> quantities)
     : TrajectoryRecorder(outputs, std::move(quantities)) {
   for (const auto& [name, probe] : probes) places_.push_back(mesh_point(mesh, probe.at));

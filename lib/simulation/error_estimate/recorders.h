@@ -57,7 +57,7 @@ Eigen::MatrixXd global_mass_product(const FemModel& model, const Eigen::MatrixXd
 // from the nearest node.
 class ProbeRecorder : public TrajectoryRecorder {
  public:
-  ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs, std::vector<Quantity> quantities);
+  ProbeRecorder(const Named<Probe>& probes, const Mesh& mesh, std::size_t outputs, std::vector<Quantity> quantities);
 
  private:
   State state_of(const ObservedState& observed) const override;

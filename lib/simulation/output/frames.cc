@@ -21,11 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_named_regions(const TetMesh& mesh) {
-  return mesh.region_names.size() > 1 || mesh.region_names.front() != "body";
-}
+bool has_named_regions(const Mesh& mesh) { return mesh.region_names.size() > 1 || mesh.region_names.front() != "body"; }
 
-void add_frame_regions(const TetMesh& mesh, VtuGrid& grid) {
+void add_frame_regions(const Mesh& mesh, VtuGrid& grid) {
   grid.region_names = mesh.region_names;
   const auto is_region = [](const VtuArray& array) { return array.name == "region"; };
   if (std::any_of(grid.cell_data.begin(), grid.cell_data.end(), is_region)) return;
@@ -33,12 +31,8 @@ void add_frame_regions(const TetMesh& mesh, VtuGrid& grid) {
       {.name = "region", .type = VtuNumber::int32, .values = {mesh.region_of.begin(), mesh.region_of.end()}});
 }
 
-VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type, const TetMesh* mesh) {
-  const Cells& cells = geometry.cells;
-  VtuGrid grid{.points = geometry.points,
-               .cell_type = geometry.vtk_cell_type,
-               .points_per_cell = static_cast<std::size_t>(cells.nodes_per_cell()),
-               .connectivity = cells.nodes()};
+VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type, const Mesh* mesh) {
+  VtuGrid grid{.points = geometry.points, .cells = geometry.cells};
   for (VtuField& field : fields) {
     auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
     data.push_back({std::move(field.name), field.components, type, std::move(field.values)});
@@ -63,12 +57,12 @@ double fingerprint_of(const fs::path& file) {
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
-               const TetMesh* mesh) {
+               const Mesh* mesh) {
   write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float64, mesh), VtuStorage::raw));
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
-                         const TetMesh* mesh)
+                         const Mesh* mesh)
     : folder_(std::move(folder)), model_(model), mesh_(mesh), collection_(folder_ / "frames.pvd") {
   for (const auto& info : model.outputs())
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/mesh.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/output/observer.h"
 
@@ -22,7 +22,7 @@ struct VtuField {
 
 // Writes one .vtu file in double precision. With `mesh`, includes its region names. Throws RunError.
 void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
-               const TetMesh* mesh = nullptr);
+               const Mesh* mesh = nullptr);
 
 class FrameWriter : public Observer {
  public:
@@ -30,7 +30,7 @@ class FrameWriter : public Observer {
   // The model and the mesh must outlive the writer. With `mesh`, each frame contains the regions by number (cell data
   // "region") and name (field data "region_names"), unless "body" is the only one.
   FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
-              const TetMesh* mesh = nullptr);
+              const Mesh* mesh = nullptr);
 
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState& observed) override;
@@ -45,7 +45,7 @@ class FrameWriter : public Observer {
 
   std::filesystem::path folder_;
   const Model& model_;
-  const TetMesh* mesh_;  // null: no regions
+  const Mesh* mesh_;  // null: no regions
   std::vector<OutputInfo> fields_;
   PvdFile collection_;
   std::size_t frames_ = 0, synced_ = 0;  // number of frames written; of frames synced to the disk

@@ -19,9 +19,9 @@ constexpr int kUsualFrames = 50;
 // Size of a frame (bytes) with fields and mesh: coordinates, connectivity, offsets, types and regions.
 double frame_bytes_of(const FemModel& model, const std::vector<std::string>& fields) {
   const auto& mesh = model.parts().mesh;
-  const auto nodes = static_cast<double>(mesh.nodes.size()), cells = static_cast<double>(mesh.tets.size());
-  const double nodes_of_cell = mesh.order() == 1 ? 4 : 10;
-  double bytes = kNumber * 3 * nodes + cells * (kIndex * (nodes_of_cell + 2) + 1);
+  const auto nodes = static_cast<double>(mesh.nodes.size()), cells = static_cast<double>(mesh.cells.size());
+  double bytes =
+      kNumber * 3 * nodes + kIndex * static_cast<double>(mesh.cells.nodes().size()) + cells * (2 * kIndex + 1);
   for (const auto& info : model.outputs())
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end())
       bytes += kNumber * info.components * (info.location == Location::node ? nodes : cells);

@@ -183,7 +183,7 @@ class SavingsFinder {
       for (const auto& field : output.fields)
         if (info.name == field)
           numbers += info.components * static_cast<double>(info.location == Location::node ? parts().mesh.nodes.size()
-                                                                                           : parts().mesh.tets.size());
+                                                                                           : parts().mesh.cells.size());
     if (const double bytes = 4 * numbers * frames; bytes > kMuchData)
       found_.push_back(fmt::format("frames: {:.2g} GB; fewer output.frames or output.fields", bytes / 1e9));
   }

@@ -40,14 +40,16 @@ const std::string& versions_of_libraries() {
 
 }  // namespace
 
-std::string mesh_fingerprint(const TetMesh& mesh) {
+std::string mesh_fingerprint(const Mesh& mesh) {
   Fingerprint print;
-  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.region_of));
-  if (mesh.order() == 2) print.add(bytes(mesh.midsides));
+  print.add(bytes(mesh.nodes))
+      .add(bytes(mesh.cells.shapes()))
+      .add(bytes(mesh.cells.nodes()))
+      .add(bytes(mesh.region_of));
   print.add(std::to_string(mesh.region_names.size()));
   for (const auto& name : mesh.region_names) print.add(name);
   print.add(std::to_string(mesh.surfaces.size()));
-  for (const auto& [name, triangles] : mesh.surfaces) print.add(name).add(bytes(triangles));
+  for (const auto& [name, faces] : mesh.surfaces) print.add(name).add(bytes(faces));
   for (const auto& [name, nodes] : mesh.node_sets) print.add(name).add(bytes(nodes));
   if (!mesh.cell_of.empty()) print.add("cut from").add(bytes(mesh.cell_of));
   return print.text();

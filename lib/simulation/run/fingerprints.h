@@ -13,7 +13,7 @@
 namespace orthodyn {
 
 // Fingerprint of nodes, elements, regions, surfaces and node sets; independent of the file format.
-std::string mesh_fingerprint(const TetMesh& mesh);
+std::string mesh_fingerprint(const Mesh& mesh);
 
 // Also includes the materials and cell data of the mesh file.
 std::string mesh_fingerprint(const LoadedMesh& loaded);

@@ -23,8 +23,8 @@ std::string laws_of(const FemModel& model) {
 ModelSummary summarize(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
-  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(), static_cast<int>(model.num_dofs_of_all()),
-                   parts.mesh.order(),      laws_of(model),         term_descriptions(parts)};
+  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.cells.size(), static_cast<int>(model.num_dofs_of_all()),
+                   parts.mesh.order(),      laws_of(model),          term_descriptions(parts)};
   if (parts.mass_damping > 0)
     out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
   out.kinematics = kinematics_summary(setup);

@@ -105,7 +105,7 @@ class Measurement {
     const auto& mesh = model.parts().mesh;
     const auto& time = setup_.scene.time;
     result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs_of_all()),
-                              mesh.tets.size(),
+                              mesh.cells.size(),
                               mesh.nodes.size(),
                               time.start,
                               time.end,

@@ -99,7 +99,7 @@ class Evaluation {
   }
 
   void describe(const FemModel& model) {
-    result_.model = {static_cast<std::size_t>(model.num_dofs_of_all()), model.parts().mesh.tets.size()};
+    result_.model = {static_cast<std::size_t>(model.num_dofs_of_all()), model.parts().mesh.cells.size()};
   }
 
   // Does not set up the scene's integrator, which modes do not need.

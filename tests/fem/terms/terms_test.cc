@@ -6,6 +6,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
+#include "tests/mesh/tets.h"
 
 namespace orthodyn::terms_test {
 namespace {
@@ -180,7 +181,7 @@ TEST(Spring, KeepsItsForceWhenTheBodyTurnsWithTheAnchorInTheMiddle) {
 double volume(const BuiltTestScene& s, const Vector& q) {
   const NodalVector x = s.positions(q);
   double sum = 0;
-  for (const Tet& t : s.mesh().tets) {
+  for (const Tet& t : tets_of(s.mesh())) {
     Mat3 edges;
     for (int k = 0; k < 3; ++k) edges.col(k) = x.col(t[static_cast<std::size_t>(k) + 1]) - x.col(t[0]);
     sum += edges.determinant() / 6;

@@ -6,6 +6,18 @@
 #include "tools/python/binding/arrays.h"
 
 namespace orthodyn::python {
+namespace {
+
+// A row of nodes per cell; -1 after the nodes of smaller cells.
+py::array_t<int> table_of(const Cells& cells) {
+  std::size_t width = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) width = std::max(width, cells[c].size());
+  std::vector<int> table(width * cells.size(), -1);
+  for (std::size_t c = 0; c < cells.size(); ++c) std::ranges::copy(cells[c], &table[width * c]);
+  return array_of(std::move(table), {static_cast<py::ssize_t>(cells.size()), static_cast<py::ssize_t>(width)});
+}
+
+}  // namespace
 
 Recorder::Recorder(const OutputSource& source, const std::vector<std::string>& fields) : geometry_(source.geometry()) {
   const std::vector<OutputInfo> outputs = source.outputs();
@@ -31,12 +43,13 @@ py::dict Recorder::take() {
   const auto nodes = static_cast<py::ssize_t>(geometry_.points.size());
   std::vector<double> points;
   for (const Vec3& x : geometry_.points) points.insert(points.end(), x.data(), x.data() + 3);
-  const auto per_cell = static_cast<py::ssize_t>(geometry_.cells.nodes_per_cell());
   const auto cells = static_cast<py::ssize_t>(geometry_.cells.size());
   out["times"] = array_of(std::move(times_));
   out["points"] = array_of(std::move(points), {nodes, 3});
-  const auto& connectivity = geometry_.cells.nodes();
-  out["cells"] = array_of(std::vector<int>(connectivity.begin(), connectivity.end()), {cells, per_cell});
+  std::vector<int> types;
+  for (const CellShape shape : geometry_.cells.shapes()) types.push_back(topology(shape).vtk_type);
+  out["cells"] = table_of(geometry_.cells);
+  out["cell_types"] = array_of(std::move(types));
   py::dict fields;
   py::list of_cells;
   for (Field& field : fields_) {

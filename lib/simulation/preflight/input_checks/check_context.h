@@ -57,6 +57,7 @@ void check_time(const CheckContext& context, Warnings& out);
 void check_motion(const CheckContext& context, Warnings& out);
 void check_damping(const CheckContext& context, Warnings& out);
 void check_freedom(const CheckContext& context, Warnings& out);
+void check_hourglass(const CheckContext& context, Warnings& out);
 void check_turning(const CheckContext& context, Warnings& out);
 void check_event(const CheckContext& context, Warnings& out);
 void check_setting(const CheckContext& context, Warnings& out);

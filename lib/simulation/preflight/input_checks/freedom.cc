@@ -102,7 +102,7 @@ void check_drift(const CheckContext& context, Warnings& out) {
 }
 
 // Nodes of the surface that can touch the ground.
-std::vector<int> touching_nodes(const Config& term, const TetMesh& mesh) {
+std::vector<int> touching_nodes(const Config& term, const Mesh& mesh) {
   std::optional<std::string> surface;
   if (term.has("surface") && !term.at("surface").is_null()) surface = term.at("surface").text();
   std::vector<int> nodes;

@@ -99,7 +99,7 @@ void check_grain(const CheckContext& context, Warnings& out) {
   const double thinner = std::min(size[(thin + 1) % 3], size[(thin + 2) % 3]) / size[thin];
   if (!(stiffer > kFarStiffer) || !(thinner > kFarThinner)) return;
   Warnings notes;
-  const TetMesh& mesh = context.built.model->parts().mesh;
+  const Mesh& mesh = context.built.model->parts().mesh;
   const Vec3 direction = region.axes->field(mesh, notes)(centroid(mesh, 0), 0).col(grain);
   if (std::abs(direction[thin]) < kAlong) return;
   warn(out, context.config.at("regions").where(),
@@ -128,7 +128,7 @@ void check_place(const CheckContext& context, Warnings& out) {
   check_direction(context, out);
   check_grain(context, out);
   add_repeated_clamps(context, out);
-  const TetMesh& mesh = context.built.model->parts().mesh;
+  const Mesh& mesh = context.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
     const double outside = distance(point, context.box);
     if (outside <= kFar * context.box.diagonal()) return;

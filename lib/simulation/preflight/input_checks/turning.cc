@@ -1,9 +1,9 @@
 // Free rotation: lumped masses with wrong moments of inertia, and linear kinematics.
 
 #include <Eigen/Eigenvalues>
-#include <array>
 #include <cmath>
 
+#include "lib/fem/element_mesh.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
 
 namespace orthodyn::input_checks {
@@ -31,22 +31,18 @@ struct Moments {
   }
 };
 
-// For a tetrahedron with straight edges, corners x_i and volume V, the integral of x x^T is
-// V/20 (sum x_i x_i^T + s s^T) with s = sum x_i.
+// The consistent mass M integrates rho N_a N_b, so that the integral of rho x x^T is sum M_ab x_a x_b^T.
 Moments of_the_body(const FemModel::Parts& parts) {
-  const TetMesh& mesh = parts.mesh;
+  const ElementMesh mesh(parts.mesh);
   Moments out;
   for (std::size_t r = 0; r < parts.elastic.size(); ++r)
     for (const int cell : parts.elastic[r]->definition().cells) {
-      std::array<Vec3, 4> x;
-      for (std::size_t i = 0; i < 4; ++i)
-        x[i] = mesh.nodes[static_cast<std::size_t>(mesh.tets[static_cast<std::size_t>(cell)][i])];
-      const double mass = parts.densities[r] * (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
-      for (const Vec3& corner : x) out.add(mass / 20, corner);
-      const Vec3 sum = x[0] + x[1] + x[2] + x[3];
-      out.mass += 0.8 * mass;
-      out.first += mass / 5 * sum;
-      out.second += mass / 20 * sum * sum.transpose();
+      const auto c = static_cast<std::size_t>(cell);
+      const ElementType::Nodes X = mesh.positions(c);
+      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(X, parts.densities[r]);
+      out.mass += M.sum();
+      out.first += X * M.rowwise().sum();
+      out.second += X * M * X.transpose();
     }
   return out;
 }

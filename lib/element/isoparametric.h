@@ -1,0 +1,114 @@
+// Isoparametric elements: what follows from a reference element by the map X(xi) = sum_a X_a N_a(xi).
+//
+// A reference element R is a struct with static members:
+//
+//   kShape, kNodes, kPoints
+//   nodes()             natural coordinates of the nodes, one per column
+//   shape(xi)           the shape functions N_a
+//   shape_slopes(xi)    their derivatives dN_a/dxi_i
+//   points()            quadrature points of the stiffness
+//   mass_points()       quadrature points of the mass
+//   interpolation(xi)   kPoints polynomials that values at points() determine
+//
+// Isoparametric<R> then has all functions of the concept Element. Volume and mass are exact where mass_points()
+// integrate det J exactly, and the consistent mass where they integrate N_a N_b det J.
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "lib/element/element.h"
+#include "lib/element/quadrature.h"
+
+namespace orthodyn {
+
+// Natural coordinates of a quadratic cell's nodes, one per column, from those of its corners.
+template <int kNodes>
+ElementNodes<kNodes> nodes_from_corners(CellShape shape, const Eigen::Matrix3Xd& corners) {
+  ElementNodes<kNodes> all;
+  all.leftCols(corners.cols()) = corners;
+  Eigen::Index node = corners.cols();
+  for (const std::vector<int>& middle : topology(shape).middles)
+    all.col(node++) = corners(Eigen::all, middle).rowwise().mean();
+  return all;
+}
+
+template <class R>
+struct Isoparametric : R {
+  static constexpr int kNodes = R::kNodes, kPoints = R::kPoints;
+
+  using Place = Vec3;  // natural coordinates
+  using Values = Eigen::Matrix<double, kNodes, 1>;
+  using Slopes = Eigen::Matrix<double, kNodes, 3>;
+
+  static Place place(int point) { return R::points()[static_cast<std::size_t>(point)].place; }
+
+  // dX/dxi, m.
+  static Mat3 jacobian(const NodeDifferences<kNodes>& rest, const Place& xi) {
+    return rest * R::shape_slopes(xi).template bottomRows<kNodes - 1>();
+  }
+
+  // The places where the Jacobian is checked: nodes, and integration points of stiffness and mass.
+  static const std::vector<Place>& checked_places() {
+    static const std::vector<Place> all = [] {
+      std::vector<Place> places;
+      for (int a = 0; a < kNodes; ++a) places.push_back(R::nodes().col(a));
+      for (const QuadraturePoint& at : R::points()) places.push_back(at.place);
+      for (const QuadraturePoint& at : R::mass_points()) places.push_back(at.place);
+      return places;
+    }();
+    return all;
+  }
+
+  static ElementPoint<kNodes> point(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q) {
+    static const std::vector<Sample> samples = samples_at(R::points());
+    const Sample& at = samples[static_cast<std::size_t>(p)];
+    const Mat3 J = rest * at.slopes;
+    return {at.slopes * J.inverse() * Q, at.weight * J.determinant()};
+  }
+
+  static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * R::shape(place(p)); }
+
+  static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
+    Eigen::MatrixXd at_nodes(kNodes, kPoints), at_points(kPoints, kPoints);
+    for (int a = 0; a < kNodes; ++a) at_nodes.row(a) = R::interpolation(R::nodes().col(a)).transpose();
+    for (int p = 0; p < kPoints; ++p) at_points.row(p) = R::interpolation(place(p)).transpose();
+    return at_nodes * at_points.inverse();
+  }
+
+  static double mass(const ElementNodes<kNodes>& X, double density) {
+    const NodeDifferences<kNodes> rest = differences<kNodes>(X);
+    double volume = 0;
+    for (const Sample& at : mass_samples()) volume += at.weight * Mat3(rest * at.slopes).determinant();
+    return density * volume;
+  }
+
+  static Eigen::Matrix<double, kNodes, kNodes> consistent_mass(const ElementNodes<kNodes>& X, double density) {
+    const NodeDifferences<kNodes> rest = differences<kNodes>(X);
+    Eigen::Matrix<double, kNodes, kNodes> M = Eigen::Matrix<double, kNodes, kNodes>::Zero();
+    for (const Sample& at : mass_samples())
+      M += density * at.weight * Mat3(rest * at.slopes).determinant() * at.N * at.N.transpose();
+    return M;
+  }
+
+ private:
+  struct Sample {
+    Values N;
+    Eigen::Matrix<double, kNodes - 1, 3> slopes;  // of nodes 1, 2, ...
+    double weight;
+  };
+
+  static std::vector<Sample> samples_at(const std::vector<QuadraturePoint>& points) {
+    std::vector<Sample> samples;
+    for (const auto& [xi, weight] : points)
+      samples.push_back({R::shape(xi), R::shape_slopes(xi).template bottomRows<kNodes - 1>(), weight});
+    return samples;
+  }
+
+  static const std::vector<Sample>& mass_samples() {
+    static const std::vector<Sample> all = samples_at(R::mass_points());
+    return all;
+  }
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,94 @@
+#include "lib/mesh/whole_cells.h"
+
+#include <algorithm>
+#include <set>
+
+namespace orthodyn {
+
+namespace {
+
+bool is_collapsed(const FileCell& cell) {
+  const auto corners = cell.corners();
+  return std::set(corners.begin(), corners.end()).size() < corners.size();
+}
+
+CellShape linear_shape(CellKind kind) {
+  switch (kind) {
+    case CellKind::wedge: return CellShape::wedge6;
+    case CellKind::hexahedron: return CellShape::hex8;
+    default: return CellShape::tet4;
+  }
+}
+
+// The node in the middle of these corners (places in the cell), if the file has one.
+std::optional<std::int64_t> middle_of(const FileCell& cell, const std::vector<int>& corners) {
+  const auto tag = [&](std::size_t k) { return cell.nodes[static_cast<std::size_t>(corners[k])]; };
+  // The ends of the edge or of a diagonal; corners 0 and 6 of a hexahedron are opposite.
+  const std::int64_t a = tag(0), b = corners.size() == 2 ? tag(1) : corners.size() == 4 ? tag(2) : tag(6);
+  for (const FileEdge& edge : cell.edges)
+    if ((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a)) return edge.middle;
+  return std::nullopt;
+}
+
+// The nodes of a cell of this shape; empty if the file lacks one of them.
+std::vector<std::int64_t> nodes_of(const FileCell& cell, CellShape shape) {
+  std::vector<std::int64_t> nodes(cell.corners().begin(), cell.corners().end());
+  for (const std::vector<int>& corners : topology(shape).middles) {
+    const auto middle = middle_of(cell, corners);
+    if (!middle) return {};
+    nodes.push_back(*middle);
+  }
+  return nodes;
+}
+
+// The quadratic shapes of a kind: with all middles, and with those of edges only.
+std::array<CellShape, 2> quadratic_shapes(CellKind kind) {
+  if (kind == CellKind::wedge) return {CellShape::wedge18, CellShape::wedge15};
+  return {CellShape::hex27, CellShape::hex20};
+}
+
+}  // namespace
+
+bool can_keep_cells(const MeshDraft& draft, FileCells cells) {
+  if (cells == FileCells::split) return false;
+  return std::all_of(draft.cells.begin(), draft.cells.end(), [&](const FileCell& cell) {
+    if (cell.kind == CellKind::tet) return true;
+    if (cell.kind == CellKind::pyramid || is_collapsed(cell)) return false;
+    if (!cell.is_quadratic()) return cells == FileCells::keep;
+    return !nodes_of(cell, quadratic_shapes(cell.kind)[1]).empty();
+  });
+}
+
+WholeCell whole_cell(const FileCell& cell) {
+  const auto corners = cell.corners();
+  if (!cell.is_quadratic()) return {linear_shape(cell.kind), {corners.begin(), corners.end()}};
+  if (cell.kind == CellKind::tet) {
+    WholeCell out{CellShape::tet10, {corners.begin(), corners.end()}};
+    out.nodes.insert(out.nodes.end(), cell.midsides->begin(), cell.midsides->end());
+    return out;
+  }
+  const auto [full, edges_only] = quadratic_shapes(cell.kind);
+  std::vector<std::int64_t> nodes = nodes_of(cell, full);
+  if (!nodes.empty()) return {full, std::move(nodes)};
+  return {edges_only, nodes_of(cell, edges_only)};
+}
+
+// Tetrahedra exchange two corners, wedges and hexahedra their two ends.
+void turn_cell(CellShape shape, std::span<int> nodes) {
+  const CellTopology& cell = topology(shape);
+  std::vector<int> place;  // for each corner, the corner that takes its place
+  for (int k = 0; k < cell.corners; ++k)
+    place.push_back(cell.corners == 4 ? (k < 2 ? k : 5 - k) : (k + cell.corners / 2) % cell.corners);
+  const std::vector<int> before(nodes.begin(), nodes.end());
+  for (std::size_t k = 0; k < place.size(); ++k) nodes[k] = before[static_cast<std::size_t>(place[k])];
+  const auto corners = static_cast<std::size_t>(cell.corners);
+  for (std::size_t m = 0; m < cell.middles.size(); ++m) {
+    std::set<int> moved;
+    for (const int k : cell.middles[m]) moved.insert(place[static_cast<std::size_t>(k)]);
+    for (std::size_t other = 0; other < cell.middles.size(); ++other)
+      if (std::set<int>(cell.middles[other].begin(), cell.middles[other].end()) == moved)
+        nodes[corners + m] = before[corners + other];
+  }
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,211 @@
+// Quadratic hexahedra and wedges: patch tests on distorted meshes, rank, derivatives, orders of frequencies, plates,
+// rows with hourglass shapes, and finer elements.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "lib/mesh/box.h"
+#include "lib/mesh/quadratic.h"
+#include "lib/mesh/refine.h"
+#include "lib/simulation/error_estimate/finer_model.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
+#include "lib/study/converge/richardson.h"
+#include "tests/problems/running.h"
+
+namespace orthodyn::hexahedra_test {
+namespace {
+
+const std::string kWood =
+    "{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, g13: "
+    "0.6}";
+
+struct Kind {
+  const char* name;
+  BoxMesh::Elements elements;
+  bool centres;  // nodes in the middle of quadrilaterals and hexahedra
+};
+
+constexpr Kind kKinds[] = {{"hex20", BoxMesh::Elements::hexahedra, false},
+                           {"hex27", BoxMesh::Elements::hexahedra, true},
+                           {"wedge15", BoxMesh::Elements::wedges, false},
+                           {"wedge18", BoxMesh::Elements::wedges, true}};
+
+// A box of `cells`, with its corners moved by `move` before edges get their middles.
+template <class Move>
+Mesh mesh_of(const Kind& kind, std::array<int, 3> cells, const Vec3& size, const Move& move) {
+  Mesh mesh = make_box({.size = size, .cells = cells, .elements = kind.elements});
+  for (Vec3& x : mesh.nodes) x = move(x);
+  make_quadratic(mesh);
+  if (kind.centres) add_centres(mesh);
+  validate(mesh, {"box"});
+  return mesh;
+}
+
+bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1 - 1e-9).all(); }
+
+Mesh distorted(const Kind& kind) {
+  Random random(601);
+  return mesh_of(kind, {3, 3, 3}, Vec3::Ones(),
+                 [&](const Vec3& x) { return is_inner(x) ? Vec3(x + 0.05 * random.vector()) : x; });
+}
+
+BuiltTestScene scene_of(const Mesh& mesh, const std::string& more, const std::string& material = kWood) {
+  given_mesh() = mesh;
+  return BuiltTestScene(fmt::format(
+      "mesh: {{type: given}}\nmaterials: {{m: {}}}\nregions: {{body: {{material: m, axes: {}}}}}\ntime: {{end: 1}}\n{}",
+      material, kTurnedAxes, more));
+}
+
+class Solid : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Kind, Solid, testing::ValuesIn(kKinds), [](const auto& one) { return one.param.name; });
+
+TEST_P(Solid, PassesThePatchTestOfALinearDisplacement) {
+  Random random(602);
+  const Mat3 A = random.matrix();
+  const BuiltTestScene s = scene_of(distorted(GetParam()), "elasticity: {kinematics: linear}");
+  const Vector q = s.dofs([&](const Vec3& x) { return Vec3(A * x); });
+  const NodalVector f = s.nodal(s.force(q));
+  for (Eigen::Index n = 0; n < f.cols(); ++n)
+    if (is_inner(s.model().parts().rest->col(n))) {
+      EXPECT_LE(f.col(n).norm(), 1e-13);
+    }
+  const auto stress = s.model().evaluate("stress", {0, q, s.zero()});
+  for (std::size_t k = 6; k < stress.size(); ++k) EXPECT_NEAR(stress[k], stress[k % 6], 1e-12);
+}
+
+// The volume of the deformed body is exact, because the mesh has no gaps: the sum of the cells' volumes is 1.
+TEST_P(Solid, FillsTheBoxAndHasItsMass) {
+  const Mesh mesh = distorted(GetParam());
+  double volume = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) volume += cell_volume(mesh, c);
+  EXPECT_NEAR(volume, 1, 1e-13);
+  for (const char* mass : {"lumped", "consistent"}) {
+    const BuiltTestScene s = scene_of(mesh, fmt::format("mass: {}", mass));
+    EXPECT_NEAR(s.model().parts().mass->total(), 1, 1e-13);
+    EXPECT_GT(s.model().parts().mass->nodal().minCoeff(), 0);
+  }
+}
+
+TEST_P(Solid, MovesWithoutForceAsARigidBodyOnly) {
+  const BuiltTestScene s = scene_of(mesh_of(GetParam(), {2, 2, 2}, Vec3::Ones(), [](const Vec3& x) { return x; }), "");
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(s.stiffness(s.zero())).eigenvalues();
+  EXPECT_LT(values.head<6>().cwiseAbs().maxCoeff(), 1e-12 * values[values.size() - 1]);
+  EXPECT_GT(values[6], 1e-5 * values[values.size() - 1]);
+  Random random(603);
+  const Mat3 R = random.rotation();
+  const Vector q = s.dofs([&](const Vec3& x) { return Vec3(R * x - x); });
+  EXPECT_LT(s.force(q).norm(), 1e-12);
+}
+
+// Forces are the slope of the energy, and the stiffness that of the forces, with an error of order 2 in the step.
+TEST_P(Solid, HasExactDerivatives) {
+  const BuiltTestScene s = scene_of(distorted(GetParam()), "clamps: [{surface: x0}]");
+  Random random(604);
+  const Vector q = random_dofs(random, s.size(), 0.02), d = random_dofs(random, s.size(), 1);
+  const Vector slope = -s.stiffness(q) * d;
+  const auto error = [&](double h) {
+    return ((s.force(q + h * d) - s.force(q - h * d)) / (2 * h) - slope).norm() / slope.norm();
+  };
+  EXPECT_NEAR(std::log2(error(2e-3) / error(1e-3)), 2, 0.2);
+  const auto energy_error = [&](double h) {
+    return std::abs((s.potential(q + h * d) - s.potential(q - h * d)) / (2 * h) + s.force(q).dot(d));
+  };
+  EXPECT_NEAR(std::log2(energy_error(4e-3) / energy_error(2e-3)), 2, 0.2);
+}
+
+// Lowest frequency of a bar that only moves along x, whose exact value is pi for a length, density and modulus of 1.
+double bar_frequency(const Kind& kind, int cells, const char* mass) {
+  const auto skewed = [](const Vec3& x) {
+    const double bend = 0.15 * std::sin(std::numbers::pi * x[0]) * (x[1] / 0.25 - 0.5);
+    return Vec3(x[0] + bend * std::sin(std::numbers::pi * x[0]), x[1], x[2]);
+  };
+  given_mesh() = mesh_of(kind, {cells, cells / 4, cells / 4}, Vec3(1, 0.25, 0.25), skewed);
+  const BuiltTestScene s(fmt::format(
+      "mesh: {{type: given}}\nmaterials: {{m: {{type: isotropic, density: 1, young: 1, nu: 0}}}}\nregions: {{body: "
+      "{{material: m}}}}\nclamps: [{{box: {{min: [-1, -1, -1], max: [2, 1, 1]}}, components: [y, z]}}]\nmass: {}\n"
+      "elasticity: {{kinematics: linear}}\ntime: {{end: 1}}\n",
+      mass));
+  const Eigen::MatrixXd K = s.stiffness(s.zero()), M = s.mass();
+  const Eigen::VectorXd squares = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues();
+  return std::sqrt(squares[1]);
+}
+
+TEST_P(Solid, HasFrequenciesOfOrderFourWithAConsistentMass) {
+  const auto error = [&](int cells) {
+    return std::abs(bar_frequency(GetParam(), cells, "consistent") / std::numbers::pi - 1);
+  };
+  const double order = std::log2(error(4) / error(8));
+  EXPECT_GT(order, 3.2);
+  EXPECT_LT(order, 4.8);
+}
+
+TEST_P(Solid, HasFrequenciesOfOrderTwoOrMoreWithALumpedMass) {
+  const auto error = [&](int cells) {
+    return std::abs(bar_frequency(GetParam(), cells, "lumped") / std::numbers::pi - 1);
+  };
+  EXPECT_LT(error(8), 2e-2);
+  const double order = std::log2(error(4) / error(8));
+  EXPECT_GT(order, 1.6);
+  EXPECT_LT(order, 4.8);
+}
+
+// Coarse displacements are displacements of the finer mesh, too: the elastic energy of a state does not change.
+TEST_P(Solid, IsASubspaceOfItsRefinement) {
+  const auto sheared = [](const Vec3& x) { return Vec3(x[0] + 0.2 * x[1], x[1], x[2] + 0.1 * x[0]); };
+  const BuiltTestScene s =
+      scene_of(mesh_of(GetParam(), {2, 2, 1}, Vec3::Ones(), sheared), "clamps: [{surface: x0}]\nmass: consistent");
+  const FinerModel finer(s.scene, s.model());
+  Random random(605);
+  const Vector q = random_dofs(random, s.size(), 0.01), fine = finer.lift(q), none = Vector::Zero(fine.size());
+  EXPECT_EQ(finer.model().parts().mesh.cells.size(), 8 * s.mesh().cells.size());
+  Vector mass_of_fine(fine.size()), mass_of_coarse(q.size());
+  finer.model().multiply_mass(fine, mass_of_fine);
+  s.model().multiply_mass(q, mass_of_coarse);
+  EXPECT_NEAR(fine.dot(mass_of_fine), q.dot(mass_of_coarse), 1e-12 * q.dot(mass_of_coarse));
+}
+
+TEST_P(Solid, KeepsItsShapeWhenRefined) {
+  LoadedMesh loaded{.mesh = distorted(GetParam())};
+  const CellShape shape = loaded.mesh.cells.shape(0);
+  const std::size_t faces = loaded.mesh.surfaces.at("x0").size();
+  refine(loaded);
+  validate(loaded.mesh, {"refined"});
+  EXPECT_EQ(loaded.mesh.cells.shape(0), shape);
+  EXPECT_EQ(loaded.mesh.surfaces.at("x0").size(), 4 * faces);
+  double volume = 0;
+  for (std::size_t c = 0; c < loaded.mesh.cells.size(); ++c) volume += cell_volume(loaded.mesh, c);
+  EXPECT_NEAR(volume, 1, 1e-13);
+}
+
+// A uniform pressure on all faces, of either kind, gives a uniform pressure in the body.
+TEST_P(Solid, IsPressedUniformly) {
+  const BuiltTestScene s = scene_of(distorted(GetParam()), "terms: [{type: pressure, pressure: 1e-3, follows: false}]");
+  const NodalVector f = s.nodal(s.force(s.zero()));
+  EXPECT_LT(f.rowwise().sum().norm(), 1e-15);
+  double work = 0;  // of the displacement x: -p times three volumes
+  for (Eigen::Index n = 0; n < f.cols(); ++n) work += f.col(n).dot(s.model().parts().rest->col(n));
+  EXPECT_NEAR(work, -3e-3, 1e-15);
+}
+
+std::string warnings_of(const std::string& cells) {
+  std::string all;
+  for (const std::string& warning : scene_warnings(Config::from_text(fmt::format(
+           "mesh: {{type: box, size: [1, 0.1, 0.1], cells: {}, elements: hexahedra}}\nmaterials: {{m: {{type: "
+           "isotropic, density: 1000, young: 1 GPa, nu: 0.3}}}}\nregions: {{body: {{material: m}}}}\nclamps: "
+           "[{{surface: x0}}]\nloads: [{{surface: x1, force: [0, 0, -1]}}]\nanalysis: static\n",
+           cells))))
+    all += warning + "\n";
+  return all;
+}
+
+// A row that is one element wide and high has shapes without stiffness even if one end is held.
+TEST(RowsOfHexahedra, OfOneElementAreToldToHaveHourglassShapes) {
+  EXPECT_NE(warnings_of("[10, 1, 1]").find("10 hexahedra are alone in two of their directions"), std::string::npos);
+  EXPECT_EQ(warnings_of("[10, 2, 1]").find("hourglass"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orthodyn::hexahedra_test
