@@ -75,8 +75,8 @@ class ASkin(unittest.TestCase):
         middles = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
         corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
         points = np.concatenate([corners, [0.5 * (corners[a] + corners[b]) for a, b in middles]])
-        from draw.vtu import EIGHTHS
-        skin = Skin(Frame(points, np.array(EIGHTHS), cells=np.arange(10)[None]))
+        from draw.cells import TET_PARTS
+        skin = Skin(Frame(points, np.array(TET_PARTS), cell_of=np.zeros(8, int), corners=np.arange(4)))
         self.assertEqual((len(skin.faces), len(skin.edges)), (16, 12))
         self.assertEqual(set(skin.cell), {0})
 

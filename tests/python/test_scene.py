@@ -141,6 +141,7 @@ class AResult(InAFolder):
         np.testing.assert_array_equal(read.displacement, kept.displacement.astype(np.float32))
         np.testing.assert_array_equal(read.stress, kept.stress.astype(np.float32))
         np.testing.assert_array_equal(read.cells, kept.cells)
+        np.testing.assert_array_equal(read.cell_types, kept.cell_types)
         np.testing.assert_array_equal(read.points, kept.points)
         self.assertEqual(read.statistics["steps"], kept.statistics["steps"])
 
@@ -149,6 +150,15 @@ class AResult(InAFolder):
         kept = scene.run(self.folder / "r")
         self.assertEqual(kept.cells.shape[1], 10)
         np.testing.assert_array_equal(orthodyn.Result.load(self.folder / "r").cells, kept.cells)
+
+    def test_of_hexahedra_has_their_nodes_and_types(self):
+        scene = orthodyn.Scene(beam()).set("mesh.order", 2).set("mesh.elements", "hexahedra").set("time.end", 0.02)
+        kept = scene.run(self.folder / "r")
+        self.assertEqual(kept.cells.shape[1], 20)
+        read = orthodyn.Result.load(self.folder / "r")
+        np.testing.assert_array_equal(read.cells, kept.cells)
+        np.testing.assert_array_equal(read.cell_types, np.full(len(kept.cells), 25))
+        np.testing.assert_array_equal(read.stress, kept.stress.astype(np.float32))
 
     def test_keeps_only_the_fields_that_are_asked_for(self):
         result = orthodyn.Scene(beam()).run(fields=["det_f"])

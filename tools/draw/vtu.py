@@ -1,4 +1,4 @@
-"""Reads one VTU file of tetrahedra: VTK XML UnstructuredGrid, arrays ascii or appended raw.
+"""Reads one VTU file of solid cells: VTK XML UnstructuredGrid, arrays ascii or appended raw.
 
 Appended raw data are an underscore, then for each array a header integer (the number of bytes) and the bytes:
 https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html.
@@ -9,11 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .cells import NAMES, SIZES, tets_of
 from .errors import DrawError
 
-NODES_OF = {10: 4, 24: 10}  # VTK_TETRA, VTK_QUADRATIC_TETRA
-# A quadratic tet is drawn as eight linear ones: one at each corner, four around a diagonal of the inner octahedron.
-EIGHTHS = ((0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4))
 NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
               (("Float", "f", (32, 64)), ("Int", "i", (8, 16, 32, 64)), ("UInt", "u", (8, 16, 32, 64)))
               for bits in sizes}
@@ -21,26 +19,37 @@ NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
 
 @dataclass
 class Frame:
-    """Rest positions (n,3); linear tets (m,4); fields by name, each (n or m, components); and the cells of the file (c,
-    4 or 10). A cell is drawn as `parts` linear tets, which share its values."""
+    """Rest positions (n,3); linear tets (m,4), the parts of the cells of the file; fields by name, each (n or m,
+    components); the cell of each tet (m,), ascending; the nodes at corners of cells; and the cells of the file (c, most
+    nodes of a cell), with -1 after the nodes of smaller cells, with their VTK types (c,)."""
     points: np.ndarray
     tets: np.ndarray
     node_fields: dict = field(default_factory=dict)
     cell_fields: dict = field(default_factory=dict)
+    cell_of: np.ndarray = None
+    corners: np.ndarray = None
     cells: np.ndarray = None
+    cell_types: np.ndarray = None
 
     def __post_init__(self):
+        if self.cell_of is None:
+            self.cell_of = np.arange(len(self.tets))
+        if self.corners is None:
+            self.corners = np.unique(self.tets)
         if self.cells is None:
-            self.cells = self.tets
+            self.cells, self.cell_types = self.tets, np.full(len(self.tets), 10)
 
     @property
-    def parts(self):
-        return len(self.tets) // max(len(self.cells), 1)
+    def num_cells(self):
+        return int(self.cell_of[-1]) + 1 if len(self.cell_of) else 0
 
     @property
-    def corners(self):
-        """Indices of the nodes at corners of cells."""
-        return np.unique(self.cells[:, :4])
+    def is_split(self):
+        return self.num_cells < len(self.tets)
+
+    def by_cell(self, name):
+        """The values of a cell field, one row per cell of the file."""
+        return self.cell_fields[name][np.searchsorted(self.cell_of, np.arange(self.num_cells))]
 
 
 class _Arrays:
@@ -105,28 +114,42 @@ def _split_appended(path, content):
     return content[:tag.start()] + b"</VTKFile>", appended
 
 
-def _tets(arrays, cells, count, num_points):
-    """The linear tets (m,4), and the cells of the file (c, 4 or 10), of which they are parts."""
+def _cells(arrays, cells, count, num_points):
+    """The linear tets, and what else a Frame has of its cells, by name."""
     named = {a.get("Name"): a for a in cells}
     missing = {"connectivity", "offsets", "types"} - set(named)
     if missing:
         raise arrays.damaged(f"Cells lack {', '.join(sorted(missing))}")
-    types = set(arrays.read(named["types"], count).ravel().tolist())
-    if len(types) > 1 or types - NODES_OF.keys():
-        raise arrays.damaged(f"cells of VTK type {sorted(types)}; only linear or quadratic tetrahedra (types 10, 24) "
-                             "can be drawn")
-    size = NODES_OF[types.pop()] if types else 4
-    nodes = arrays.read(named["connectivity"], None)
-    if nodes.size != size * count:
-        raise arrays.damaged(f"connectivity has {nodes.size} entries; {count} tetrahedra need {size * count}")
-    nodes = nodes.reshape(count, size).astype(np.int64)
+    types = arrays.read(named["types"], count).ravel().astype(np.int64)
+    unknown = set(types.tolist()) - SIZES.keys()
+    if unknown:
+        raise arrays.damaged(f"cells of VTK type {sorted(unknown)}; only {NAMES} can be drawn")
+    nodes = arrays.read(named["connectivity"], None).ravel().astype(np.int64)
+    sizes = np.array([SIZES[kind][0] for kind in types.tolist()], np.int64)
+    if nodes.size != sizes.sum():
+        raise arrays.damaged(f"connectivity has {nodes.size} entries; its {count} cells need {sizes.sum()}")
     if nodes.size and (nodes.min() < 0 or nodes.max() >= num_points):
         raise arrays.damaged(f"connectivity names point {nodes.max()}, but there are {num_points} points")
-    return (nodes if size == 4 else nodes[:, EIGHTHS].reshape(-1, 4)), nodes
+    start = np.cumsum(sizes) - sizes
+    table = np.full((count, sizes.max(initial=4)), -1)
+    table[np.arange(table.shape[1]) < sizes[:, None]] = nodes
+    tets, owners, corners = [np.empty((0, 4), np.int64)], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+    for kind in np.unique(types):
+        size, num_corners = SIZES[int(kind)]
+        own = np.flatnonzero(types == kind)
+        of_kind = nodes[start[own][:, None] + np.arange(size)]
+        parts, row = tets_of(int(kind), of_kind)
+        tets.append(parts)
+        owners.append(own[row])
+        corners.append(of_kind[:, :num_corners].ravel())
+    owner = np.concatenate(owners)
+    order = np.argsort(owner, kind="stable")
+    return np.concatenate(tets)[order], {"cell_of": owner[order], "corners": np.unique(np.concatenate(corners)),
+                                         "cells": table, "cell_types": types}
 
 
 def read_vtu(path):
-    """The Frame in `path`. Raises DrawError if the file is missing or damaged or has cells other than tets."""
+    """The Frame in `path`. Raises DrawError if the file is missing or damaged, or has cells that cannot be drawn."""
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -147,10 +170,8 @@ def read_vtu(path):
             raise arrays.damaged(f"points have {points.shape[1]} components; 3 belong")
         fields = [{a.get("Name"): arrays.read(a, count) for a in piece.findall(f"{where}/DataArray")}
                   for where, count in (("PointData", num_points), ("CellData", num_cells))]
-        tets, cells = _tets(arrays, piece.find("Cells"), num_cells, num_points)
+        tets, cells = _cells(arrays, piece.find("Cells"), num_cells, num_points)
         of_nodes, of_cells = fields
-        parts = len(tets) // max(len(cells), 1)
-        return Frame(points, tets, of_nodes, {name: np.repeat(values, parts, axis=0) for name, values in of_cells.items()},
-                     cells)
+        return Frame(points, tets, of_nodes, {name: values[cells["cell_of"]] for name, values in of_cells.items()}, **cells)
     except (TypeError, ValueError) as error:
         raise arrays.damaged(f"a count or offset is no whole number ({error})") from None

@@ -31,18 +31,17 @@ class _Kept:
 
     def __init__(self, skin, frame, volume):
         if volume:
-            self.nodes, self.cells = np.arange(len(frame.points)), np.arange(len(frame.tets) // frame.parts)
+            self.nodes, self.cells = np.arange(len(frame.points)), np.arange(frame.num_cells)
         else:
             self.nodes, self.cells = skin.surface.nodes, np.unique(skin.cell)
-        self.parts = frame.parts
         self._node, self._cell = (_places(*pair) for pair in ((self.nodes, len(frame.points)),
-                                                              (self.cells, len(frame.tets) // frame.parts)))
+                                                              (self.cells, frame.num_cells)))
 
     def of(self, frame, name):
         """The values of a field at the included nodes or cells."""
         if name in frame.node_fields:
             return frame.node_fields[name][self.nodes]
-        return frame.cell_fields[name][::self.parts][self.cells]
+        return frame.by_cell(name)[self.cells]
 
     def node(self, numbers):
         return self._node[numbers]
@@ -74,7 +73,7 @@ def add_result(blocks, key, item, extent):
         "name": item.name, "group": item.group, "shape": item.is_shape, "static": item.is_static, "facts": list(item.facts),
         "labels": [item.labels[k] for k in frames] if item.labels else None,
         "centre": centre.tolist(), "reach": survey.reach(), "times": [float(series.times[k]) for k in frames],
-        "cells": len(first.tets) // first.parts, "volume": extent.volume,
+        "cells": first.num_cells, "volume": extent.volume,
         "fields": _add_frames(blocks, key, series, frames, shown, survey),
         "quantities": survey.quantities(),
         "strokes": _add_strokes(blocks, key, first, skin),
@@ -104,7 +103,7 @@ def _add_mesh(blocks, key, frame, skin, shown, centre, volume):
     blocks.add(f"{key}/creases", "u32", shown.node(skin.creases))
     if volume:
         blocks.add(f"{key}/tets", "u32", frame.tets)
-        blocks.add(f"{key}/tet_cell", "u32", np.arange(len(frame.tets)) // frame.parts)
+        blocks.add(f"{key}/tet_cell", "u32", frame.cell_of)
 
 
 def _add_frames(blocks, key, series, frames, shown, survey):

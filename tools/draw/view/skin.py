@@ -12,8 +12,8 @@ class Skin:
     def __init__(self, frame):
         surface = Surface(frame.points, frame.tets)
         self.surface = surface
-        self.faces, self.parts = surface.faces, frame.parts
-        self.cell = surface.cell // frame.parts
+        self.faces = surface.faces
+        self.cell = frame.cell_of[surface.cell]
         start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
         pairs = np.stack([np.minimum(start, end), np.maximum(start, end)], axis=1)
         self.edges = np.unique(pairs[self._of_cells(frame, pairs)], axis=0)
@@ -22,7 +22,7 @@ class Skin:
 
     def _of_cells(self, frame, pairs):
         """The edges of cells, without the edges between the parts of a quadratic face."""
-        if frame.parts == 1:
+        if not frame.is_split:
             return np.ones(len(pairs), bool)
         corner = np.zeros(len(frame.points), bool)
         corner[frame.corners] = True

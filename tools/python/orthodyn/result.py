@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TEMPORARY = "orthodyn-"  # prefix of temporary result folders
-CELL_TYPES = {4: "tetra", 10: "tetra10"}
+# meshio's name and the number of nodes, by VTK type
+CELL_TYPES = {10: ("tetra", 4), 24: ("tetra10", 10), 25: ("hexahedron20", 20), 26: ("wedge15", 15),
+              29: ("hexahedron27", 27), 32: ("wedge18", 18)}
 
 
 class Columns(dict[str, np.ndarray]):
@@ -91,8 +93,13 @@ class Result:
 
     @cached_property
     def cells(self) -> np.ndarray:
-        """Nodes of the elements (elements, 4 or 10)."""
+        """Nodes of the elements (elements, most nodes of an element); -1 after the nodes of smaller elements."""
         return self._kept["cells"] if "cells" in self._kept else self._series.frame(0).cells
+
+    @cached_property
+    def cell_types(self) -> np.ndarray:
+        """VTK types of the elements (elements,): 10 and 24 tetrahedra, 25 and 29 hexahedra, 26 and 32 wedges."""
+        return self._kept["cell_types"] if "cell_types" in self._kept else self._series.frame(0).cell_types
 
     @property
     def fields(self) -> list[str]:
@@ -118,7 +125,7 @@ class Result:
         frames = [self._series.frame(k) for k in range(len(self._series))]
         if name in frames[0].node_fields:
             return np.stack([frame.node_fields[name] for frame in frames])
-        return np.stack([frame.cell_fields[name][::frame.parts] for frame in frames])
+        return np.stack([frame.by_cell(name) for frame in frames])
 
     @property
     def displacement(self) -> np.ndarray:
@@ -178,13 +185,18 @@ class Result:
         return pandas.DataFrame(columns).set_index(next(iter(columns)))
 
     def to_meshio(self, frame: int = -1) -> meshio.Mesh:
-        """One frame as a meshio.Mesh: the rest shape with the displacement and all other fields."""
+        """One frame as a meshio.Mesh: the rest shape with the displacement and all other fields. Elements are grouped by
+        their type."""
         import meshio
         nodes, cells = len(self.points), len(self.cells)
         values = {name: self[name][frame] for name in self.fields}
         of_nodes = {name: v for name, v in values.items() if len(v) == nodes and not self._is_of_cells(name)}
-        of_cells = {name: [v] for name, v in values.items() if name not in of_nodes and len(v) == cells}
-        return meshio.Mesh(self.points, [(CELL_TYPES[self.cells.shape[1]], self.cells)], of_nodes, of_cells)
+        blocks = [np.flatnonzero(self.cell_types == kind) for kind in np.unique(self.cell_types)]
+        of_cells = {name: [v[block] for block in blocks] for name, v in values.items()
+                    if name not in of_nodes and len(v) == cells}
+        named = [CELL_TYPES[int(self.cell_types[block[0]])] for block in blocks]
+        return meshio.Mesh(self.points, [(name, self.cells[block, :size]) for (name, size), block in zip(named, blocks)],
+                           of_nodes, of_cells)
 
     def view(self, *others: Result | str | Path, out: str | Path | None = None, volume: bool = False, height: int = 620,
              time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
