@@ -68,31 +68,62 @@ std::vector<std::pair<FaceTags, std::size_t>> faces_of_tets(const MeshDraft& dra
   return faces;
 }
 
-// A tet of the file that lies on a quadrilateral must match one of the two triangles that the face is cut into.
-void check_diagonals(const MeshDraft& draft) {
-  const auto is_tet = [](const FileCell& cell) { return cell.kind == CellKind::tet; };
-  if (std::all_of(draft.cells.begin(), draft.cells.end(), is_tet)) return;
-  const auto faces = faces_of_tets(draft);
-  if (faces.empty()) return;
+// Calls visit(quadrilateral, cell) for each quadrilateral of each cell, with the smallest node tag first.
+// Quadrilaterals that are collapsed to triangles are left out.
+template <class Visit>
+void for_each_quadrilateral(const MeshDraft& draft, Visit&& visit) {
   for (const FileCell& cell : draft.cells)
     for (const CornerIndices& places : faces_of(cell.kind)) {
       if (places.size() != 4) continue;
       std::array<std::int64_t, 4> quad{};
       for (std::size_t k = 0; k < 4; ++k) quad[k] = cell.nodes[places[k]];
-      if (std::set(quad.begin(), quad.end()).size() < 4) continue;  // collapsed to a triangle
+      if (std::set(quad.begin(), quad.end()).size() < 4) continue;
       std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
-      for (const std::size_t third : {0u, 2u}) {
-        FaceTags half{quad[1], quad[3], quad[third]};  // one half of the face if it were cut by the other diagonal
-        std::sort(half.begin(), half.end());
-        const auto found = std::lower_bound(faces.begin(), faces.end(), std::pair(half, std::size_t{0}));
-        if (found == faces.end() || found->first != half) continue;
-        const FileCell& tet = draft.cells[found->second];
-        draft.fail(tet.place,
-                   "element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the other "
-                   "diagonal, from node {} to {}; mesh with pyramids between them",
-                   tet.tag, cell.tag, draft.where(cell.place), quad[0], quad[2]);
-      }
+      visit(quad, cell);
     }
+}
+
+// The cell of the tet that has this face, or null. `faces`: faces_of_tets().
+const FileCell* tet_at(const MeshDraft& draft, const std::vector<std::pair<FaceTags, std::size_t>>& faces,
+                       FaceTags face) {
+  std::sort(face.begin(), face.end());
+  const auto found = std::lower_bound(faces.begin(), faces.end(), std::pair(face, std::size_t{0}));
+  return found == faces.end() || found->first != face ? nullptr : &draft.cells[found->second];
+}
+
+bool has_tets_only(const MeshDraft& draft) {
+  return std::all_of(draft.cells.begin(), draft.cells.end(),
+                     [](const FileCell& cell) { return cell.kind == CellKind::tet; });
+}
+
+// Whether a tet of the file lies on a quadrilateral: the two match only if all elements are split.
+bool has_tet_on_quadrilateral(const MeshDraft& draft) {
+  if (has_tets_only(draft)) return false;
+  const auto faces = faces_of_tets(draft);
+  if (faces.empty()) return false;
+  bool found = false;
+  for_each_quadrilateral(draft, [&](const std::array<std::int64_t, 4>& q, const FileCell&) {
+    for (std::size_t k = 0; k < 4; ++k)
+      found = found || tet_at(draft, faces, {q[k], q[(k + 1) % 4], q[(k + 2) % 4]}) != nullptr;
+  });
+  return found;
+}
+
+// A tet of the file that lies on a quadrilateral must match one of the two triangles that the face is cut into.
+void check_diagonals(const MeshDraft& draft) {
+  if (has_tets_only(draft)) return;
+  const auto faces = faces_of_tets(draft);
+  if (faces.empty()) return;
+  for_each_quadrilateral(draft, [&](const std::array<std::int64_t, 4>& quad, const FileCell& cell) {
+    for (const std::size_t third : {0u, 2u}) {  // the halves of the face if it were cut by the other diagonal
+      const FileCell* const tet = tet_at(draft, faces, {quad[1], quad[3], quad[third]});
+      if (!tet) continue;
+      draft.fail(tet->place,
+                 "element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the other "
+                 "diagonal, from node {} to {}; mesh with pyramids between them",
+                 tet->tag, cell.tag, draft.where(cell.place), quad[0], quad[2]);
+    }
+  });
 }
 
 // Tetrahedra, with their mid-edge nodes in a quadratic mesh.
@@ -143,9 +174,7 @@ std::vector<EdgeMiddle> edges_of(const MeshDraft& draft, const NodeNumbers& numb
 
 // Edges of all elements come before diagonals: a diagonal that is an edge of a tet has its node already.
 void add_midsides(const MeshDraft& draft, const NodeNumbers& number, Mesh& mesh, Tets& tets) {
-  const bool all_tets = std::all_of(draft.cells.begin(), draft.cells.end(),
-                                    [](const FileCell& cell) { return cell.kind == CellKind::tet; });
-  if (all_tets) {
+  if (has_tets_only(draft)) {
     for (const FileCell& cell : draft.cells)
       if (cell.midsides) number_into(tets.middles.emplace_back(), draft, number, cell, *cell.midsides);
     return;
@@ -297,7 +326,7 @@ std::string MeshDraft::where(FilePlace place) const {
 LoadedMesh build_mesh(MeshDraft draft, FileCells cells) {
   sort_by_tag(draft);
   check_order(draft);
-  const bool keep = can_keep_cells(draft, cells);
+  const bool keep = can_keep_cells(draft, cells) && !has_tet_on_quadrilateral(draft);
   if (!keep) check_diagonals(draft);
   FaceOrigins face_origins;
   LoadedMesh loaded{.mesh = number_nodes(draft, keep, face_origins), .warnings = std::move(draft.warnings)};

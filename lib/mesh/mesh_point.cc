@@ -75,14 +75,15 @@ Found in_tet(const Mesh& mesh, std::size_t cell, const Vec3& place) {
   return found;
 }
 
-// Distance of a place from the box around a cell's nodes, m.
+// Distance of a place from a box around a cell, m. The box of the nodes is enlarged, because edges may bulge.
 double distance_from_box(const Mesh& mesh, std::span<const int> nodes, const Vec3& place) {
   Vec3 low = mesh.node(nodes[0]), high = low;
   for (const int n : nodes) {
     low = low.cwiseMin(mesh.node(n));
     high = high.cwiseMax(mesh.node(n));
   }
-  return (place - place.cwiseMax(low).cwiseMin(high)).norm();
+  const Vec3 margin = Vec3::Constant(0.25 * (high - low).norm());
+  return (place - place.cwiseMax(low - margin).cwiseMin(high + margin)).norm();
 }
 
 Found in_cell(const Mesh& mesh, std::size_t cell, const Vec3& place) {
@@ -92,7 +93,10 @@ Found in_cell(const Mesh& mesh, std::size_t cell, const Vec3& place) {
       const auto X = positions<E>(mesh, cell);
       const Vec3 x = natural<E>(X, place), inside = clamped<E>(x);
       const auto N = E::shape(inside);
-      found = {(X * N - place).norm(), as_list(N)};
+      constexpr double kRoundOff = 1e-12;  // of natural coordinates
+      const bool is_inside = (x - inside).lpNorm<Eigen::Infinity>() < kRoundOff;
+      found = {is_inside && (X * N - place).norm() < kRoundOff * X.cwiseAbs().maxCoeff() ? 0 : (X * N - place).norm(),
+               as_list(N)};
     } else {
       found = in_tet(mesh, cell, place);
     }

@@ -185,17 +185,20 @@ void check_overlaps(const Mesh& mesh, const std::vector<MeshFace>& faces, const 
 
 // No triangle of a tet may lie on a quadrilateral: the displacements of the two would not match.
 void check_matching_faces(const Mesh& mesh, const std::vector<MeshFace>& faces, const MeshOrigin& origin) {
-  if (mesh.has_tets_only()) return;
-  for (const MeshFace& quad : faces) {
-    if (quad.corners.size() == 3) continue;
+  const auto is_triangle = [](const MeshFace& face) { return face.corners.size() == 3; };
+  if (mesh.has_tets_only() || std::none_of(faces.begin(), faces.end(), is_triangle)) return;
+  for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin)) {
+    const MeshFace& quad = faces[begin];
+    if (is_triangle(quad) || end_of_face(faces, begin) > begin + 1) continue;  // the other side has the same face
     const auto& c = quad.corners;
     for (const FaceCorners& half : {FaceCorners(c[0], c[1], c[2]), FaceCorners(c[0], c[2], c[3]),
                                     FaceCorners(c[1], c[2], c[3]), FaceCorners(c[0], c[1], c[3])}) {
-      const auto [begin, end] = find_faces(faces, half);
-      if (begin == end) continue;
-      refuse(origin.cell(faces[begin].cell),
-             "a triangle of it lies on a quadrilateral of {}: the two deform differently; set `split: true`, so that "
-             "all elements become tetrahedra, or mesh without this contact",
+      const auto [first, end] = find_faces(faces, half);
+      if (first == end) continue;
+      refuse(origin.cell(faces[first].cell),
+             "a triangle of it lies on a quadrilateral of {}: the two deform differently; set `split: true` (convert: "
+             "--split), "
+             "so that all elements become tetrahedra, or mesh without this contact",
              origin.cell(quad.cell));
     }
   }

@@ -25,7 +25,7 @@ std::uint64_t face_key(FaceCorners face) {
   return edge_key(face[0], face[2]);
 }
 
-// The node of a cell that is the middle of these of its corners (indices in the cell).
+// The node at a place in a cell.
 int node_at(std::span<const int> nodes, int place) { return nodes[static_cast<std::size_t>(place)]; }
 
 FaceCorners face_of(std::span<const int> nodes, const std::vector<int>& corners) {
@@ -62,7 +62,8 @@ void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
     for (std::size_t m = 0; m < cell.middles.size(); ++m) {
       const std::vector<int>& of = cell.middles[m];
       const int middle = nodes[static_cast<std::size_t>(cell.corners) + m];
-      Pair ends{node_at(nodes, of[0]), node_at(nodes, of.back())};
+      // Of a cell's centre: opposite corners, which are no diagonal of a face.
+      Pair ends{node_at(nodes, of[0]), node_at(nodes, of.size() == 8 ? of[6] : of.back())};
       int expected = middle;
       if (of.size() == 2) {
         expected = middles.of_edge(ends.first, ends.second);
@@ -94,7 +95,7 @@ void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
   }
 }
 
-// Linear and 20-node faces may not meet 27-node ones: the middle node of the one would be free to leave the other.
+// Faces without a node in their middle may not meet faces with one: the middle of the one could leave the other.
 void check_face_middles(const Mesh& mesh, const MeshOrigin& origin) {
   const auto has_centres = [](CellShape shape) { return shape == CellShape::hex27 || shape == CellShape::wedge18; };
   const auto& shapes = mesh.cells.shapes();
@@ -295,6 +296,18 @@ void add_centres(Mesh& mesh) {
     cells.add(shape, nodes);
   }
   mesh.cells = std::move(cells);
+  if (mesh.node_sets.empty()) return;
+  const Cells surface = face_cells(mesh, boundary_faces(mesh));
+  for (auto& [name, set] : mesh.node_sets) {
+    const auto has = [&, known = set.size()](int node) {
+      return std::binary_search(set.begin(), set.begin() + static_cast<std::ptrdiff_t>(known), node);
+    };
+    for (std::size_t k = 0; k < surface.size(); ++k)
+      if (surface.shape(k) == CellShape::quad9 && std::all_of(surface[k].begin(), surface[k].end() - 1, has))
+        set.push_back(surface[k].back());
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+  }
 }
 
 Cells face_cells(const Mesh& mesh, const std::vector<FaceCorners>& faces) {

@@ -1,6 +1,9 @@
 #include "lib/mesh/whole_cells.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <mutex>
 #include <set>
 
 namespace orthodyn {
@@ -47,6 +50,23 @@ std::array<CellShape, 2> quadratic_shapes(CellKind kind) {
   return {CellShape::hex27, CellShape::hex20};
 }
 
+// For each node of a cell, the node that takes its place if the cell is turned: tetrahedra exchange two corners, wedges
+// and hexahedra their two ends.
+std::vector<std::size_t> turned_places(const CellTopology& cell) {
+  std::vector<int> corner;
+  for (int k = 0; k < cell.corners; ++k)
+    corner.push_back(cell.corners == 4 ? (k < 2 ? k : 5 - k) : (k + cell.corners / 2) % cell.corners);
+  std::vector<std::size_t> places(corner.begin(), corner.end());
+  for (const std::vector<int>& middle : cell.middles) {
+    std::set<int> moved;
+    for (const int k : middle) moved.insert(corner[static_cast<std::size_t>(k)]);
+    for (std::size_t other = 0; other < cell.middles.size(); ++other)
+      if (std::set<int>(cell.middles[other].begin(), cell.middles[other].end()) == moved)
+        places.push_back(static_cast<std::size_t>(cell.corners) + other);
+  }
+  return places;
+}
+
 }  // namespace
 
 bool can_keep_cells(const MeshDraft& draft, FileCells cells) {
@@ -73,22 +93,15 @@ WholeCell whole_cell(const FileCell& cell) {
   return {edges_only, nodes_of(cell, edges_only)};
 }
 
-// Tetrahedra exchange two corners, wedges and hexahedra their two ends.
 void turn_cell(CellShape shape, std::span<int> nodes) {
-  const CellTopology& cell = topology(shape);
-  std::vector<int> place;  // for each corner, the corner that takes its place
-  for (int k = 0; k < cell.corners; ++k)
-    place.push_back(cell.corners == 4 ? (k < 2 ? k : 5 - k) : (k + cell.corners / 2) % cell.corners);
-  const std::vector<int> before(nodes.begin(), nodes.end());
-  for (std::size_t k = 0; k < place.size(); ++k) nodes[k] = before[static_cast<std::size_t>(place[k])];
-  const auto corners = static_cast<std::size_t>(cell.corners);
-  for (std::size_t m = 0; m < cell.middles.size(); ++m) {
-    std::set<int> moved;
-    for (const int k : cell.middles[m]) moved.insert(place[static_cast<std::size_t>(k)]);
-    for (std::size_t other = 0; other < cell.middles.size(); ++other)
-      if (std::set<int>(cell.middles[other].begin(), cell.middles[other].end()) == moved)
-        nodes[corners + m] = before[corners + other];
-  }
+  static std::map<CellShape, std::vector<std::size_t>> known;
+  static std::mutex adding;
+  const std::lock_guard lock(adding);
+  std::vector<std::size_t>& places = known[shape];
+  if (places.empty()) places = turned_places(topology(shape));
+  std::array<int, 27> before{};
+  std::copy(nodes.begin(), nodes.end(), before.begin());
+  for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = before[places[k]];
 }
 
 }  // namespace orthodyn

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "lib/fem/element_groups.h"
 #include "lib/material_axes/axes_source.h"
@@ -43,25 +44,22 @@ CellsOfRank cells_of_rank(const ElementMesh& own, const FemModel::Parts& parts, 
   return cells;
 }
 
-// The fields of a region are recovered from elements of one type.
-void require_one_shape_per_region(const Mesh& mesh) {
-  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
-    Cells cells;
-    for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-      if (mesh.region_of[e] == static_cast<int>(r)) cells.add(mesh.cells.shape(e), mesh.cells[e]);
-    if (cells.empty() || std::count(cells.shapes().begin(), cells.shapes().end(), cells.shape(0)) ==
-                             static_cast<std::ptrdiff_t>(cells.size()))
-      continue;
-    throw ConfigError("mesh", fmt::format("region '{}' has {}; a region has elements of one kind: put each kind into "
-                                          "a region of its own, or set `split: true` to make all of them tetrahedra",
-                                          mesh.region_names[r], describe_cells(cells)));
+// The shape of each region's cells; empty for a region without cells. The fields of a region are recovered from
+// elements of one type, so that other regions are refused.
+std::vector<std::optional<CellShape>> shapes_of_regions(const Mesh& mesh) {
+  std::vector<std::optional<CellShape>> shapes(mesh.region_names.size());
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const CellShape shape = mesh.cells.shape(e);
+    const std::size_t region = at(mesh.region_of[e]);
+    if (!shapes[region]) shapes[region] = shape;
+    if (*shapes[region] != shape)
+      throw ConfigError(
+          "mesh", fmt::format("region '{}' has {} and {}; a region has elements of one kind: put each "
+                              "kind into a region of its own, or set `split: true` to make all of them "
+                              "tetrahedra",
+                              mesh.region_names[region], topology(*shapes[region]).plural, topology(shape).plural));
   }
-}
-
-// The element type of a region. Precondition: the region has a cell.
-const ElementType& type_of_region(const Mesh& mesh, int region) {
-  const auto cell = std::find(mesh.region_of.begin(), mesh.region_of.end(), region) - mesh.region_of.begin();
-  return element_type(mesh.cells.shape(static_cast<std::size_t>(cell)));
+  return shapes;
 }
 
 // Makes the elastic terms. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
@@ -69,7 +67,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
                     FemModel::Parts& parts, Warnings& notes) {
   const Mesh& mesh = parts.mesh;
   const ElementMesh elements(mesh);
-  require_one_shape_per_region(mesh);
+  const auto shapes = shapes_of_regions(mesh);
   std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = *regions[r];
@@ -82,7 +80,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
         cells.here.empty() ? ElementAxes(Mat3::Identity())
                            : element_axes(*region.axes, field, elements, parts.subdomain ? cells.numbers : cells.here);
     parts.elastic.push_back(
-        type_of_region(mesh, static_cast<int>(r))
+        element_type(*shapes[r])
             .elastic_term(own,
                           {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(), axes,
                            stiffness_damping(scene, region), elasticity_of(scene, region),

@@ -365,8 +365,8 @@ TEST(Hexahedra, WithTooFewNodesAreRefused) {
                   "a.msh:32: expected a node tag");
   EXPECT_CONTAINS(refusal_of([] { read_vtu_text("a.vtu", replaced(kVtu, "12 13 13", "12 12 13")); }),
                   "a.vtu: cell 1: a hexahedron (type 12) of 6 points; expected 8");
-  EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", "C3D15V")); }),
-                  "a.inp:14: element type C3D15V is not supported; supported solid elements: tetrahedra");
+  EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", "C3D13V")); }),
+                  "a.inp:14: element type C3D13V is not supported; supported solid elements: tetrahedra");
   for (const char* unknown : {"C3D8X", "C3D8RR", "C3D8HR", "C3D9"}) {
     const std::string message = refusal_of([&] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", unknown)); });
     EXPECT_CONTAINS(message, "element type " + std::string(unknown));

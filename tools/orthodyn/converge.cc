@@ -26,7 +26,7 @@ struct ConvergeArguments : StudyArguments {
   std::vector<std::string> set, quantities;
   int levels = 3, modes = 0;
   double seconds = 600;
-  std::string orders = "1,2";
+  std::string orders;  // empty: those that the elements have
 };
 
 std::vector<int> parse_orders(const std::string& text) {
@@ -34,6 +34,13 @@ std::vector<int> parse_orders(const std::string& text) {
   if (text == "2") return {2};
   if (text == "1,2" || text == "2,1") return {1, 2};
   throw ConfigError(fmt::format("--order: expected 1, 2 or 1,2, found '{}'", text));
+}
+
+// Linear and quadratic tetrahedra are compared; hexahedra and wedges are quadratic only.
+std::vector<int> orders_of(const ConvergeArguments& arguments) {
+  if (!arguments.orders.empty()) return parse_orders(arguments.orders);
+  const Config mesh = read_scene_file(arguments.file, {.set = arguments.set}).at("mesh");
+  return mesh.has("elements") && mesh.at("elements").text() != "tetrahedra" ? std::vector{2} : std::vector{1, 2};
 }
 
 Convergence convergence_from(const ConvergeArguments& arguments) {
@@ -44,7 +51,7 @@ Convergence convergence_from(const ConvergeArguments& arguments) {
   return {.file = arguments.file,
           .set = arguments.set,
           .levels = arguments.levels,
-          .orders = parse_orders(arguments.orders),
+          .orders = orders_of(arguments),
           .quantities = arguments.quantities,
           .modes = arguments.modes,
           .limits = {.seconds = arguments.seconds},
@@ -119,8 +126,9 @@ void declare(ConvergeArguments& arguments, CommandOptions& options) {
              "Number of meshes: the scene's own, then each twice as fine as the one before.")
       .range(2, 8)
       .show_default();
-  options.value("--order", arguments.orders, "Element orders to compute: 1 (linear), 2 (quadratic) or 1,2.")
-      .show_default();
+  options.value("--order", arguments.orders,
+                "Element orders to compute: 1 (linear), 2 (quadratic) or 1,2. Default: 1,2; for hexahedra and wedges "
+                "of a box 2.");
   options
       .repeated("--quantity", arguments.quantities,
                 "Quantity to compute, e.g. tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: "

@@ -78,7 +78,14 @@ void AbaqusElementReader::add_cell(std::int64_t tag, const AbaqusShape& shape, F
     std::copy(middles, nodes_.end(), cell.midsides.emplace().begin());
     return;
   }
-  cell.add_edge_middles(edges_of(cell.kind), std::span(nodes_).subspan(shape.corners));
+  const auto& edges = edges_of(cell.kind);
+  cell.add_edge_middles(edges, std::span(nodes_).subspan(shape.corners));
+  // C3D27: the centre, then the middles of the faces S1 to S6; C3D15V: those of S3 to S5.
+  std::size_t next = shape.corners + edges.size();
+  if (next == shape.nodes) return;
+  if (cell.kind == CellKind::hexahedron) cell.add_centre(nodes_[next++]);
+  for (const CornerIndices& face : faces_of(cell.kind))
+    if (face.size() == 4) cell.add_face_middle({face[0], face[1], face[2], face[3]}, nodes_[next++]);
 }
 
 void AbaqusElementReader::add_face(std::int64_t tag, const AbaqusShape& shape, FilePlace place) {

@@ -30,7 +30,9 @@ const std::vector<SolidFamily>& solid_families() {
        {"C3D20", "C3D20H", "C3D20R", "C3D20RH", "C3D20T", "C3D20HT", "C3D20RT", "C3D20RHT", "C3D20P", "C3D20PH",
         "C3D20RP", "C3D20RPH", "C3D20E", "C3D20RE"}},
       {{6, 6, CellKind::wedge}, {"C3D6", "C3D6H", "C3D6T", "C3D6HT", "C3D6P", "C3D6PH", "C3D6PT", "C3D6E"}},
+      {{27, 8, CellKind::hexahedron}, {"C3D27", "C3D27H", "C3D27R", "C3D27RH"}},
       {{15, 6, CellKind::wedge}, {"C3D15", "C3D15H", "C3D15E"}},
+      {{18, 6, CellKind::wedge}, {"C3D15V", "C3D15VH"}},
       {{5, 5, CellKind::pyramid}, {"C3D5", "C3D5H"}}};
   return families;
 }

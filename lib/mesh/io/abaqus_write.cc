@@ -48,12 +48,15 @@ struct AbaqusType {
 
 const AbaqusType& type_of(CellShape shape) {
   // C3D27 has the middle of the cell before those of the faces, in the order S1 to S6.
-  static const AbaqusType tet4{"C3D4", CellKind::tet}, tet10{"C3D10", CellKind::tet}, wedge15{"C3D15", CellKind::wedge},
-      wedge18{"C3D15V", CellKind::wedge}, hex20{"C3D20R", CellKind::hexahedron},
+  static const AbaqusType tet4{"C3D4", CellKind::tet}, tet10{"C3D10", CellKind::tet}, wedge6{"C3D6", CellKind::wedge},
+      hex8{"C3D8", CellKind::hexahedron}, wedge15{"C3D15", CellKind::wedge}, wedge18{"C3D15V", CellKind::wedge},
+      hex20{"C3D20R", CellKind::hexahedron},
       hex27{"C3D27", CellKind::hexahedron, {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
                                             14, 15, 16, 17, 18, 19, 26, 24, 25, 22, 21, 23, 20}};
   switch (shape) {
     case CellShape::tet10: return tet10;
+    case CellShape::wedge6: return wedge6;
+    case CellShape::hex8: return hex8;
     case CellShape::wedge15: return wedge15;
     case CellShape::wedge18: return wedge18;
     case CellShape::hex20: return hex20;
@@ -87,6 +90,23 @@ std::pair<int, int> element_and_side(const Mesh& mesh, const std::vector<MeshFac
   return {0, 0};
 }
 
+// At most sixteen entries on a line; a comma at its end announces the next line.
+void add_element(TextLines& lines, std::size_t number, std::span<const int> nodes) {
+  constexpr std::size_t kFirst = 15, kNext = 16;
+  const auto head = nodes.first(std::min(kFirst, nodes.size()));
+  std::span<const int> rest = nodes.subspan(head.size());
+  lines.add(number);
+  lines.add(FromOne{head});
+  while (!rest.empty()) {
+    lines.add("");
+    lines.end_line();
+    const auto part = rest.first(std::min(kNext, rest.size()));
+    lines.add(FromOne{part});
+    rest = rest.subspan(part.size());
+  }
+  lines.end_line();
+}
+
 // Consecutive elements of a shape form a block.
 void add_abaqus_mesh(TextLines& lines, const Mesh& mesh) {
   lines.text("*HEADING\nwritten by orthodyn\n*NODE\n");
@@ -97,7 +117,7 @@ void add_abaqus_mesh(TextLines& lines, const Mesh& mesh) {
       lines.text(std::string("*ELEMENT, TYPE=") + type.name + "\n");
     std::vector<int> nodes(mesh.cells[e].begin(), mesh.cells[e].end());
     for (std::size_t k = 0; k < type.order.size(); ++k) nodes[k] = mesh.cells[e][type.order[k]];
-    lines.line(e + 1, FromOne{nodes});
+    add_element(lines, e + 1, nodes);
   }
 }
 

@@ -96,7 +96,8 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
 }  // namespace
 
 WrittenMesh write_vega(const LoadedMesh& loaded) {
-  if (loaded.mesh.order() == 2) throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp");
+  if (loaded.mesh.order() == 2 || !loaded.mesh.has_tets_only())
+    throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp");
   WrittenMesh written;
   TextLines lines;
   add_vega_mesh(lines, loaded.mesh);

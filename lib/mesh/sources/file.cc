@@ -24,7 +24,7 @@ struct EnumNames<FileUnits> {
 
 namespace {
 
-constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every tetrahedron into eight.";
+constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every element into eight.";
 const Rule kRefineRule{.range = {0, 6}};
 constexpr const char* kSplitSentence =
     "true: hexahedra and wedges become tetrahedra. false: quadratic ones stay as they are, with `order: 2` linear "
@@ -56,6 +56,7 @@ struct FileOptions {
           fmt::format("{}: node set \"{}\" has mid-edge nodes only and is empty with `order: 1`; leave out `order`, or "
                       "add corners to the set",
                       file.path, name));
+    if (order == 2 && !loaded.mesh.has_tets_only()) validate(loaded.mesh, {file.path});  // may have become quadratic
     for (int i = 0; i < refinements; ++i) refine(loaded);
     return loaded;
   }

@@ -58,10 +58,12 @@ void check_hourglass(const CheckContext& context, Warnings& out) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     count += shapes[c] == CellShape::hex20 && is_in_row(neighbours(mesh, faces, c)) && is_loose(parts, c);
   if (count == 0) return;
-  warn(out, context.config.at("mesh").where(),
-       "{} hexahedra are alone in two of their directions: their reduced integration leaves shapes without stiffness "
-       "(hourglass), which no neighbour prevents. Use at least two cells across, or `elements: tetrahedra`",
-       count);
+  warn(
+      out, context.config.at("mesh").where(),
+      "{} without neighbours in two directions: reduced integration leaves shapes without stiffness (hourglass), which "
+      "no neighbour prevents. Use at least two elements across, or tetrahedra (`elements: tetrahedra`; of a file "
+      "`split: true`)",
+      count == 1 ? "1 hexahedron is" : fmt::format("{} hexahedra are", count));
 }
 
 }  // namespace orthodyn::input_checks
