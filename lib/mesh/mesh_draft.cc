@@ -241,7 +241,7 @@ Mesh number_nodes(const MeshDraft& draft, bool keep, FaceOrigins& face_origins) 
   return mesh;
 }
 
-// A volume with the sign of the cell's orientation: for a tet that of its corners, whatever its mid-edge nodes.
+// A volume whose sign is the orientation of the cell. Mid-edge nodes of a tetrahedron are left out.
 double corner_volume(const Mesh& mesh, std::size_t cell) {
   const auto corners = mesh.cells.corners(cell);
   if (corners.size() > 4) return cell_volume(mesh, cell);

@@ -44,7 +44,8 @@ std::vector<std::int64_t> nodes_of(const FileCell& cell, CellShape shape) {
   return nodes;
 }
 
-// The quadratic shapes of a kind: with all middles, and with those of edges only.
+// The two quadratic shapes of a wedge or hexahedron: the one with nodes on edges, faces and at the centre, then the one
+// with nodes on edges only.
 std::array<CellShape, 2> quadratic_shapes(CellKind kind) {
   if (kind == CellKind::wedge) return {CellShape::wedge18, CellShape::wedge15};
   return {CellShape::hex27, CellShape::hex20};

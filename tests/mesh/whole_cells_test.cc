@@ -1,4 +1,5 @@
-// Hexahedra and wedges that stay as they are: through all formats, turned, split on request, and what is refused.
+// Hexahedra and wedges of files that stay as they are. Tests write and read them in all formats, reverse their
+// orientation and split them; some files must be split or refused.
 #include "lib/mesh/whole_cells.h"
 
 #include <gtest/gtest.h>

@@ -76,7 +76,7 @@ TEST_P(Solid, PassesThePatchTestOfALinearDisplacement) {
   for (std::size_t k = 6; k < stress.size(); ++k) EXPECT_NEAR(stress[k], stress[k % 6], 1e-12);
 }
 
-// The volume of the deformed body is exact, because the mesh has no gaps: the sum of the cells' volumes is 1.
+// The volumes of the cells add up to that of the box, 1 m^3, because the mesh has no gaps.
 TEST_P(Solid, FillsTheBoxAndHasItsMass) {
   const Mesh mesh = distorted(GetParam());
   double volume = 0;
@@ -100,7 +100,8 @@ TEST_P(Solid, MovesWithoutForceAsARigidBodyOnly) {
   EXPECT_LT(s.force(q).norm(), 1e-12);
 }
 
-// Forces are the slope of the energy, and the stiffness that of the forces, with an error of order 2 in the step.
+// The force is minus the derivative of the energy, and the stiffness minus the derivative of the force. Central
+// differences have an error of order 2 in the step.
 TEST_P(Solid, HasExactDerivatives) {
   const BuiltTestScene s = scene_of(distorted(GetParam()), "clamps: [{surface: x0}]");
   Random random(604);

@@ -80,7 +80,8 @@ void AbaqusElementReader::add_cell(std::int64_t tag, const AbaqusShape& shape, F
   }
   const auto& edges = edges_of(cell.kind);
   cell.add_edge_middles(edges, std::span(nodes_).subspan(shape.corners));
-  // C3D27: the centre, then the middles of the faces S1 to S6; C3D15V: those of S3 to S5.
+  // After the mid-edge nodes C3D27 lists the node at the centre, then the nodes in the middle of the faces S1 to S6.
+  // C3D15V lists the nodes in the middle of the faces S3 to S5.
   std::size_t next = shape.corners + edges.size();
   if (next == shape.nodes) return;
   if (cell.kind == CellKind::hexahedron) cell.add_centre(nodes_[next++]);

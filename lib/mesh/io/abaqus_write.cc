@@ -47,7 +47,7 @@ struct AbaqusType {
 };
 
 const AbaqusType& type_of(CellShape shape) {
-  // C3D27 has the middle of the cell before those of the faces, in the order S1 to S6.
+  // After the mid-edge nodes C3D27 lists the node at the centre, then the nodes in the middle of the faces S1 to S6.
   static const AbaqusType tet4{"C3D4", CellKind::tet}, tet10{"C3D10", CellKind::tet}, wedge6{"C3D6", CellKind::wedge},
       hex8{"C3D8", CellKind::hexahedron}, wedge15{"C3D15", CellKind::wedge}, wedge18{"C3D15V", CellKind::wedge},
       hex20{"C3D20R", CellKind::hexahedron},

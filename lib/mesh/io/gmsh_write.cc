@@ -120,8 +120,8 @@ void add_nodes(TextLines& lines, const Mesh& mesh) {
   lines.line("$EndNodes");
 }
 
-// Consecutive elements of one type form a block, in a region those of the same region, so that cells keep their order.
-// Returns the number of blocks.
+// Writes the elements in blocks. A block holds consecutive elements of one type, and of one region if they are cells;
+// the order of the elements does not change. Returns the number of blocks.
 std::size_t add_blocks(TextLines& lines, const Mesh& mesh, const std::vector<Group>& groups) {
   std::size_t blocks = 0, number = 0;
   for (const Group& group : groups)
