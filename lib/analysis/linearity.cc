@@ -20,8 +20,7 @@ std::unique_ptr<ElasticTerm> with_exact_force(const ElasticTerm& term, const Ele
                                               const BlockPattern& pattern) {
   ElasticRegion region = term.definition();
   region.options = {};
-  const ElementType& type = elements.type(static_cast<std::size_t>(region.cells.front()));
-  return type.elastic_term(elements, std::move(region), pattern);
+  return term.type().elastic_term(elements, std::move(region), pattern);
 }
 
 // The part of shift(mean + swing) that is odd in `swing`. If no shift is found for the full swing, smaller swings are

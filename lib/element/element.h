@@ -13,6 +13,7 @@
 
 #include "lib/core/cell_shape.h"
 #include "lib/core/types.h"
+#include "lib/element/quadrature.h"
 
 namespace orthodyn {
 
@@ -61,6 +62,16 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::mass(X, density) } -> std::same_as<double>;  // kg, density in kg/m^3
   // integral of rho N_a N_b dV, kg.
   { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;
+};
+
+// An element with functions for any integration point, so that it can have other points than its own kPoints.
+template <class E>
+concept HasIntegrationRules = Element<E> &&
+    requires(QuadraturePoint at, NodeDifferences<E::kNodes> d, Vec3 xi, Mat3 Q, IntegrationRule rule) {
+  { E::point(at, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
+  { E::shape(xi) } -> std::same_as<Eigen::Matrix<double, E::kNodes, 1>>;
+  { E::own_rule() } -> std::same_as<IntegrationRule>;
+  { E::part_of_rule(rule, -1.0, 1.0) } -> std::same_as<IntegrationRule>;
 };
 
 }  // namespace orthodyn

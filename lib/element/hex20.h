@@ -4,7 +4,7 @@
 // Stiffness: 2 x 2 x 2 Gauss points, the reduced integration of Zienkiewicz, Taylor & Too (1971), which avoids most of
 // the element's locking. A free cell has 60 - 6 - 48 = 6 zero-energy modes: motions without strain at the points. 2 x 2
 // cells have none together, but a straight row of n > 1 single cells keeps n + 1, and n if one end is clamped: its
-// stiffness is singular.
+// stiffness is singular. Such rows take the 14 points of Irons (1971), with which the stiffness has full rank.
 //
 // Mass: 3 x 3 x 3 Gauss points, exact for a parallelepiped; the volume is exact also for curved edges. Lumped mass: the
 // diagonal of the consistent mass, scaled to the total mass (Hinton, Rock & Zienkiewicz 1976), because the row sums of
@@ -48,6 +48,12 @@ struct ReferenceHex20 {
   static Eigen::Matrix<double, kPoints, 1> interpolation(const Vec3& xi) {
     Eigen::Matrix<double, kPoints, 1> P;
     P << 1, xi[0], xi[1], xi[2], xi[0] * xi[1], xi[1] * xi[2], xi[2] * xi[0], xi.prod();
+    return P;
+  }
+  // For irons_points(): trilinear, with the squares and cubes of the coordinates.
+  static Eigen::Matrix<double, 14, 1> interpolation_14(const Vec3& xi) {
+    Eigen::Matrix<double, 14, 1> P;
+    P << interpolation(xi), xi.cwiseAbs2(), xi.cwiseProduct(xi.cwiseAbs2());
     return P;
   }
 };

@@ -62,18 +62,40 @@ struct Isoparametric : R {
 
   static ElementPoint<kNodes> point(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q) {
     static const std::vector<Sample> samples = samples_at(R::points());
-    const Sample& at = samples[static_cast<std::size_t>(p)];
-    const Mat3 J = rest * at.slopes;
-    return {at.slopes * J.inverse() * Q, at.weight * J.determinant()};
+    return point_of(samples[static_cast<std::size_t>(p)], rest, Q);
+  }
+  static ElementPoint<kNodes> point(const QuadraturePoint& at, const NodeDifferences<kNodes>& rest, const Mat3& Q) {
+    return point_of(sample_at(at), rest, Q);
   }
 
   static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * R::shape(place(p)); }
 
   static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
-    Eigen::MatrixXd at_nodes(kNodes, kPoints), at_points(kPoints, kPoints);
-    for (int a = 0; a < kNodes; ++a) at_nodes.row(a) = R::interpolation(R::nodes().col(a)).transpose();
-    for (int p = 0; p < kPoints; ++p) at_points.row(p) = R::interpolation(place(p)).transpose();
+    return extrapolation(R::points(), &R::interpolation);
+  }
+
+  // Matrix (nodes x points) that extrapolates values at `points` to the nodes by as many polynomials.
+  template <class Polynomials>
+  static Eigen::MatrixXd extrapolation(const std::vector<QuadraturePoint>& points, Polynomials&& polynomials) {
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd at_nodes(kNodes, n), at_points(n, n);
+    for (int a = 0; a < kNodes; ++a) at_nodes.row(a) = polynomials(R::nodes().col(a)).transpose();
+    for (Eigen::Index p = 0; p < n; ++p)
+      at_points.row(p) = polynomials(points[static_cast<std::size_t>(p)].place).transpose();
     return at_nodes * at_points.inverse();
+  }
+
+  // The points of R as a rule, and a rule's points moved to the part begin < t < end of the third natural coordinate in
+  // [-1, 1].
+  static IntegrationRule own_rule() { return {R::points(), R::nodes(), points_to_nodes()}; }
+  static IntegrationRule part_of_rule(IntegrationRule rule, double begin, double end) {
+    const double scale = (end - begin) / 2, centre = (begin + end) / 2;
+    for (QuadraturePoint& at : rule.points) {
+      at.place[2] = centre + scale * at.place[2];
+      at.weight *= scale;
+    }
+    for (double& t : rule.nodes.row(2)) t = t == -1 ? begin : t == 1 ? end : centre + scale * t;
+    return rule;
   }
 
   static double mass(const ElementNodes<kNodes>& X, double density) {
@@ -98,11 +120,18 @@ struct Isoparametric : R {
     double weight;
   };
 
+  static Sample sample_at(const QuadraturePoint& at) {
+    return {R::shape(at.place), R::shape_slopes(at.place).template bottomRows<kNodes - 1>(), at.weight};
+  }
   static std::vector<Sample> samples_at(const std::vector<QuadraturePoint>& points) {
     std::vector<Sample> samples;
-    for (const auto& [xi, weight] : points)
-      samples.push_back({R::shape(xi), R::shape_slopes(xi).template bottomRows<kNodes - 1>(), weight});
+    for (const QuadraturePoint& at : points) samples.push_back(sample_at(at));
     return samples;
+  }
+
+  static ElementPoint<kNodes> point_of(const Sample& at, const NodeDifferences<kNodes>& rest, const Mat3& Q) {
+    const Mat3 J = rest * at.slopes;
+    return {at.slopes * J.inverse() * Q, at.weight * J.determinant()};
   }
 
   static const std::vector<Sample>& mass_samples() {

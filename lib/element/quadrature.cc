@@ -112,6 +112,17 @@ std::vector<QuadraturePoint> cube_points(const std::vector<LinePoint>& line) {
   return points;
 }
 
+std::vector<QuadraturePoint> irons_points() {
+  const double face = std::sqrt(19.0 / 30), corner = std::sqrt(19.0 / 33);
+  std::vector<QuadraturePoint> points;
+  for (int i = 0; i < 3; ++i)
+    for (const double sign : {-1.0, 1.0}) points.push_back({sign * face * Vec3::Unit(i), 320.0 / 361});
+  for (const double z : {-corner, corner})
+    for (const double y : {-corner, corner})
+      for (const double x : {-corner, corner}) points.push_back({{x, y, z}, 121.0 / 361});
+  return points;
+}
+
 std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& triangle,
                                           const std::vector<LinePoint>& line) {
   std::vector<QuadraturePoint> points;

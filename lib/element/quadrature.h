@@ -47,6 +47,14 @@ struct QuadraturePoint {
   double weight;
 };
 
+// Integration points of an element's stiffness that differ from those of the element's struct. They cover a part of the
+// cell: all of it, or a ply.
+struct IntegrationRule {
+  std::vector<QuadraturePoint> points;
+  Eigen::Matrix3Xd nodes;    // natural coordinates in the cell of the part's nodes, numbered as the cell's
+  Eigen::MatrixXd to_nodes;  // nodes x points: extrapolates values at the points to `nodes`
+};
+
 // (x, y, 0) in [-1, 1]^2: exact for polynomials of degree 5 in each coordinate; sum of weights 4.
 const std::array<QuadraturePoint, 9>& square_points_of_degree_5();
 
@@ -55,5 +63,9 @@ const std::array<QuadraturePoint, 9>& square_points_of_degree_5();
 std::vector<QuadraturePoint> cube_points(const std::vector<LinePoint>& line);
 std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& triangle,
                                           const std::vector<LinePoint>& line);
+
+// On [-1, 1]^3, exact for polynomials of degree 5 (Irons 1971): one point on the axis to each face, in the order -x, x,
+// -y, ..., then one on the diagonal to each corner, x varying fastest. Sum of weights 8.
+std::vector<QuadraturePoint> irons_points();
 
 }  // namespace orthodyn

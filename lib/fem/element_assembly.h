@@ -102,7 +102,7 @@ class ElementAssembly {
   template <class FormAt>
   void add_element(int k, double* values, FormAt&& form_at) const {
     ElementBlocks<E::kNodes> blocks;
-    for (int p = 0; p < E::kPoints; ++p)
+    for (int p = 0; p < elements_.num_points(); ++p)
       add_point_stiffness<E::kNodes>(form_at(p), elements_.point(k, p), symmetric(), p == 0, blocks);
     complete<E::kNodes>(symmetric(), blocks);
     add_blocks(k, blocks, values);

@@ -1,6 +1,6 @@
-// The elements of one region in batches of Batch::kLanes: node numbers and, per point, shape gradients and volume, lane
-// by lane. The last batch is padded with copies of the last element with zero volume. They add nothing, and use only
-// nodes of the last group of elements (element_groups.h).
+// The elements of one region in batches of Batch::kLanes: node numbers and, per integration point, shape gradients and
+// volume, lane by lane. The last batch is padded with copies of the last element with zero volume. They add nothing,
+// and use only nodes of the last group of elements (element_groups.h).
 //
 // Const functions may run concurrently for elements without a common node, or with different force vectors.
 #pragma once
@@ -23,22 +23,24 @@ inline namespace ORTHODYN_LANES {
 template <Element E>
 class ElementBatches {
  public:
-  static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes, kPoints = E::kPoints;
+  static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes;
   using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
   // One column per node but the first.
   using Columns = Eigen::Matrix<Batch, 3, kNodes - 1>;
 
-  // `axes` are in the order of `cells`. The mesh need not outlive this object.
-  ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes);
+  // `axes` are in the order of `cells`. `rule`: null for the points of E. The arguments need not outlive this object.
+  ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes,
+                 const IntegrationRule* rule);
 
   int size() const { return size_; }
-  int num_batches() const { return static_cast<int>(batches_.size()); }
+  int num_batches() const { return static_cast<int>(nodes_.size()); }
+  int num_points() const { return num_points_; }
   // Number of elements in a batch, without padding.
   int lanes(int batch) const { return std::min(kLanes, size_ - batch * kLanes); }
-  std::size_t bytes() const { return batches_.capacity() * sizeof(One); }
+  std::size_t bytes() const { return nodes_.capacity() * sizeof(nodes_[0]) + points_.capacity() * sizeof(Point); }
 
   // Data of element k.
-  Nodes nodes(int k) const { return at(k).nodes[lane(k)]; }
+  Nodes nodes(int k) const { return nodes_[static_cast<std::size_t>(k / kLanes)][lane(k)]; }
   ElementPoint<kNodes> point(int k, int point) const;
   // Data of a whole batch.
   ElementPoint<kNodes, Batch> points(int batch, int point) const;
@@ -71,36 +73,43 @@ class ElementBatches {
     alignas(64) double B[kGradients][kLanes];  // column-major
     double volume[kLanes];
   };
-  struct One {
-    std::array<Nodes, kLanes> nodes;
-    std::array<Point, static_cast<std::size_t>(kPoints)> points;
-  };
 
   static NodeDifferences<kNodes> differences_of(const Nodes& nodes, const NodalVector& u);
-  const One& at(int k) const { return batches_[static_cast<std::size_t>(k / kLanes)]; }
-  const Point& at_point(int batch, int point) const {
-    return batches_[static_cast<std::size_t>(batch)].points[static_cast<std::size_t>(point)];
-  }
+  static ElementPoint<kNodes> point_at_rest(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q,
+                                            const IntegrationRule* rule);
+  std::size_t index(int batch, int point) const { return static_cast<std::size_t>(batch * num_points_ + point); }
+  const Point& at_point(int batch, int point) const { return points_[index(batch, point)]; }
   static std::size_t lane(int k) { return static_cast<std::size_t>(k % kLanes); }
 
-  int size_;
-  std::vector<One> batches_;
+  int size_, num_points_;
+  std::vector<std::array<Nodes, kLanes>> nodes_;  // per batch
+  std::vector<Point> points_;                     // batch-major
 };
 
 template <Element E>
-ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes)
+auto ElementBatches<E>::point_at_rest(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q,
+                                      const IntegrationRule* rule) -> ElementPoint<kNodes> {
+  if constexpr (HasIntegrationRules<E>)
+    if (rule) return E::point(rule->points[static_cast<std::size_t>(p)], rest, Q);
+  return E::point(p, rest, Q);
+}
+
+template <Element E>
+ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes,
+                                  const IntegrationRule* rule)
     : size_(static_cast<int>(cells.size())),
-      batches_((cells.size() + static_cast<std::size_t>(kLanes) - 1) / static_cast<std::size_t>(kLanes)) {
+      num_points_(rule ? static_cast<int>(rule->points.size()) : E::kPoints),
+      nodes_((cells.size() + static_cast<std::size_t>(kLanes) - 1) / static_cast<std::size_t>(kLanes)),
+      points_(nodes_.size() * static_cast<std::size_t>(num_points_)) {
   for (int k = 0; k < num_batches() * kLanes; ++k) {
     const bool filler = k >= size_;
     const int element = filler ? size_ - 1 : k;
     const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(element)]);
     const NodeDifferences<kNodes> rest = orthodyn::differences<kNodes>(mesh.positions(cell));
-    One& one = batches_[static_cast<std::size_t>(k / kLanes)];
-    std::copy_n(mesh.cells[cell].begin(), kNodes, one.nodes[lane(k)].begin());
-    for (int p = 0; p < kPoints; ++p) {
-      const ElementPoint<kNodes> point = E::point(p, rest, axes.of(element, p));
-      Point& out = one.points[static_cast<std::size_t>(p)];
+    std::copy_n(mesh.cells[cell].begin(), kNodes, nodes_[static_cast<std::size_t>(k / kLanes)][lane(k)].begin());
+    for (int p = 0; p < num_points_; ++p) {
+      const ElementPoint<kNodes> point = point_at_rest(p, rest, axes.of(element, p), rule);
+      Point& out = points_[index(k / kLanes, p)];
       for (int i = 0; i < kGradients; ++i) out.B[i][lane(k)] = point.B(i);
       out.volume[lane(k)] = filler ? 0 : point.volume;
     }
@@ -141,10 +150,10 @@ Batch gathered(const double* const* nodes, int i, std::index_sequence<lane...>) 
 // The following functions are compiled separately from the laws' kernels, with which they would compete for registers.
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN auto ElementBatches<E>::differences(int batch, const NodalVector& u) const -> Columns {
-  const One& one = batches_[static_cast<std::size_t>(batch)];
+  const auto& nodes = nodes_[static_cast<std::size_t>(batch)];
   const auto at_node = [&](std::size_t a) {
     std::array<const double*, kLanes> node;
-    for (std::size_t l = 0; l < kLanes; ++l) node[l] = u.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
+    for (std::size_t l = 0; l < kLanes; ++l) node[l] = u.data() + 3 * static_cast<std::ptrdiff_t>(nodes[l][a]);
     return Vec3T<Batch>(gathered(node.data(), 0, Lanes{}), gathered(node.data(), 1, Lanes{}),
                         gathered(node.data(), 2, Lanes{}));
   };
@@ -184,10 +193,10 @@ template <Element E>
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::scatter(int batch, const Columns& batch_force,
                                                                 NodalVector& f) const {
-  const One& one = batches_[static_cast<std::size_t>(batch)];
+  const auto& nodes = nodes_[static_cast<std::size_t>(batch)];
   const auto add = [&](std::size_t a, const Vec3T<Batch>& force) {
     for (std::size_t l = 0; l < kLanes; ++l) {
-      double* node = f.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
+      double* node = f.data() + 3 * static_cast<std::ptrdiff_t>(nodes[l][a]);
       for (int i = 0; i < 3; ++i) node[i] += force[i][static_cast<int>(l)];
     }
   };

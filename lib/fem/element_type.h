@@ -16,7 +16,7 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  static constexpr int kMostNodes = 27;  // of nodes and of points; small matrices need no allocation
+  static constexpr int kMostNodes = 27;  // small matrices need no allocation
   // Node positions at rest (m), one column each.
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 
@@ -26,16 +26,24 @@ class ElementType {
   const char* name() const { return topology(shape()).name; }
   int num_nodes() const { return topology(shape()).nodes; }
 
+  // Node positions (m) of the part of the cell that is integrated: all of the cell, or a ply.
+  virtual Nodes part(const Nodes& X) const = 0;
+  // Whether a node of the cell lies in this part.
+  virtual bool holds(int node) const = 0;
+  // This type for the ply begin < t < end of the third natural coordinate in [-1, 1]. Null for tetrahedra.
+  virtual std::unique_ptr<const ElementType> ply(double begin, double end) const = 0;
+
   // Positions of the integration points at rest (m), one column each.
-  virtual Nodes points(const Nodes& X) const = 0;
+  virtual Eigen::Matrix3Xd points(const Nodes& X) const = 0;
 
   virtual int num_points() const = 0;
 
-  // E::kDegree and E::points_to_nodes() of the element E.
+  // The largest degree of which the shape functions contain all polynomials.
   virtual int degree() const = 0;
+  // Extrapolates values at the integration points to the nodes of part().
   virtual Eigen::MatrixXd points_to_nodes() const = 0;
 
-  // Mass of one element (kg) for a density in kg/m^3. Lumped masses are positive, and their sum is density times
+  // Mass of the whole cell (kg) for a density in kg/m^3. Lumped masses are positive, and their sum is density times
   // volume.
   virtual Vector lumped_mass(const Nodes& X, double density) const = 0;
   virtual Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const = 0;
@@ -43,14 +51,16 @@ class ElementType {
   // Largest ratio of lumped to consistent kinetic energy of one element.
   virtual double lumped_to_consistent() const = 0;
 
-  // Makes the elastic term of a region of a mesh of this type. The pattern must outlive the term, the mesh need not.
+  // Makes the elastic term of a region of a mesh of this type. Type and pattern must outlive the term, the mesh need
+  // not.
   virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                                     const BlockPattern& pattern) const = 0;
 };
 
 const ElementType& linear_tetrahedron();
 const ElementType& quadratic_tetrahedron();
-const ElementType& quadratic_hexahedron();     // 20 nodes, reduced integration
+const ElementType& quadratic_hexahedron();     // 20 nodes, reduced integration: 8 points
+const ElementType& quadratic_hexahedron_14();  // 20 nodes, full integration: 14 points
 const ElementType& triquadratic_hexahedron();  // 27 nodes
 const ElementType& quadratic_wedge();          // 15 nodes
 const ElementType& biquadratic_wedge();        // 18 nodes

@@ -11,20 +11,50 @@ namespace orthodyn {
 
 template <Element E>
 class ElementTypeOf final : public ElementType {
-  static_assert(E::kNodes <= kMostNodes && E::kPoints <= kMostNodes, "raise ElementType::kMostNodes");
+  static_assert(E::kNodes <= kMostNodes, "raise ElementType::kMostNodes");
 
  public:
-  CellShape shape() const override { return E::kShape; }
-  int num_points() const override { return E::kPoints; }
+  ElementTypeOf() = default;  // with the integration points of E
+  explicit ElementTypeOf(IntegrationRule rule) : rule_(std::move(rule)) {}
 
-  Nodes points(const Nodes& X) const override {
-    Nodes out(3, E::kPoints);
-    for (int p = 0; p < E::kPoints; ++p) out.col(p) = E::place_of(p, X);
+  CellShape shape() const override { return E::kShape; }
+  int num_points() const override { return rule_ ? static_cast<int>(rule_->points.size()) : E::kPoints; }
+
+  Nodes part(const Nodes& X) const override {
+    if constexpr (HasIntegrationRules<E>)
+      if (rule_) {
+        Nodes out(3, E::kNodes);
+        for (int a = 0; a < E::kNodes; ++a) out.col(a) = X * E::shape(rule_->nodes.col(a));
+        return out;
+      }
+    return X;
+  }
+
+  bool holds(int node) const override {
+    if constexpr (HasIntegrationRules<E>) {
+      if (!rule_) return true;
+      const auto heights = rule_->nodes.row(2);
+      const double height = E::nodes()(2, node);
+      return height >= heights.minCoeff() && height <= heights.maxCoeff();
+    } else return true;
+  }
+
+  std::unique_ptr<const ElementType> ply(double begin, double end) const override {
+    if constexpr (HasIntegrationRules<E>)
+      return std::make_unique<ElementTypeOf>(E::part_of_rule(rule_ ? *rule_ : E::own_rule(), begin, end));
+    else return nullptr;
+  }
+
+  Eigen::Matrix3Xd points(const Nodes& X) const override {
+    Eigen::Matrix3Xd out(3, num_points());
+    for (int p = 0; p < num_points(); ++p) out.col(p) = place_of(p, X);
     return out;
   }
 
   int degree() const override { return E::kDegree; }
-  Eigen::MatrixXd points_to_nodes() const override { return E::points_to_nodes(); }
+  Eigen::MatrixXd points_to_nodes() const override {
+    return rule_ ? rule_->to_nodes : Eigen::MatrixXd(E::points_to_nodes());
+  }
 
   Vector lumped_mass(const Nodes& X, double density) const override {
     return E::mass(X, density) * Eigen::Map<const Eigen::Matrix<double, E::kNodes, 1>>(E::kLumpedShares.data());
@@ -42,17 +72,26 @@ class ElementTypeOf final : public ElementType {
   }
 
  private:
+  Vec3 place_of(int p, const ElementNodes<E::kNodes>& X) const {
+    if constexpr (HasIntegrationRules<E>)
+      if (rule_) return X * E::shape(rule_->points[static_cast<std::size_t>(p)].place);
+    return E::place_of(p, X);
+  }
+
   template <class C>
-  static std::unique_ptr<ElasticTerm> term_with_stiffness(const C& stiffness, const ElementMesh& mesh,
-                                                          ElasticRegion region, const BlockPattern& pattern) {
+  std::unique_ptr<ElasticTerm> term_with_stiffness(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
+                                                   const BlockPattern& pattern) const {
     const ElasticityOptions options = region.options;
     const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
-      return std::make_unique<ElasticTermOf<E, std::decay_t<decltype(law)>>>(mesh, std::move(region), law, pattern);
+      return std::make_unique<ElasticTermOf<E, std::decay_t<decltype(law)>>>(*this, mesh, std::move(region), law,
+                                                                             pattern, rule_ ? &*rule_ : nullptr);
     };
     if (options.kinematics == Kinematics::linear) return with(LinearLaw<C>(stiffness));
     if (options.corotation == Corotation::warped) return with(WarpedLaw<C>(stiffness, options.warped_tangent));
     return with(CorotationalLaw<C>(stiffness));
   }
+
+  std::optional<IntegrationRule> rule_;  // empty: the points of E
 };
 
 }  // namespace orthodyn

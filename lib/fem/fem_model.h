@@ -41,12 +41,13 @@ class FemModel : public Model {
     std::unique_ptr<DofMap> dofs;
     std::unique_ptr<BlockPattern> pattern;
     std::unique_ptr<Mass> mass;
-    std::unique_ptr<NodalVector> rest;                  // node positions at rest, m
-    std::vector<std::unique_ptr<ElasticTerm>> elastic;  // one per region
-    std::vector<double> densities;                      // kg/m^3, parallel to `elastic`
-    std::vector<std::unique_ptr<Term>> loads;           // all other terms
-    std::vector<std::string> load_descriptions = {};    // of `loads`, whole body; empty with one rank
-    double mass_damping = 0;                            // 1/s
+    std::unique_ptr<NodalVector> rest;                               // node positions at rest, m
+    std::vector<std::unique_ptr<const ElementType>> ply_types = {};  // of the terms of plies
+    std::vector<std::unique_ptr<ElasticTerm>> elastic;               // one per region, or per ply of a layered region
+    std::vector<double> densities;                    // kg/m^3, parallel to `elastic`; of a cell with plies its mean
+    std::vector<std::unique_ptr<Term>> loads;         // all other terms
+    std::vector<std::string> load_descriptions = {};  // of `loads`, whole body; empty with one rank
+    double mass_damping = 0;                          // 1/s
     // Static analysis: loads are evaluated at this time (s); supports move during the second before this time.
     std::optional<double> loads_at = {};
     std::unique_ptr<MovedNodes> moved;                  // null without motions

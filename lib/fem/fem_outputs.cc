@@ -20,13 +20,30 @@ Values flat(const M& m) {
   return Values(m.data(), m.data() + m.size());
 }
 
-// Values of all mesh cells, `components` per cell. f writes the values of element k of a term to `out`.
-Values per_cell(const View& view, std::size_t components,
+enum class OfPlies { mean, first, smallest };
+
+// Values of all mesh cells, `components` per cell. f writes the values of element k of a term to `out`. A cell with
+// plies has the mean over its thickness, the values of its first ply, or the smallest of its plies.
+Values per_cell(const View& view, std::size_t components, OfPlies of_plies,
                 const std::function<void(const ElasticTerm&, int k, double* out)>& f) {
-  Values out(view.parts().mesh.region_of.size() * components);
-  for (const auto& term : view.parts().elastic)
-    for (int k = 0; k < term->size(); ++k)
-      f(*term, k, out.data() + static_cast<std::size_t>(term->cell(k)) * components);
+  Values out(view.parts().mesh.region_of.size() * components), of_ply(components);
+  std::vector<double> filled(view.parts().mesh.region_of.size(), 0);  // share of the cell's thickness
+  for (const auto& term : view.parts().elastic) {
+    const double share = term->definition().share;
+    for (int k = 0; k < term->size(); ++k) {
+      const auto cell = static_cast<std::size_t>(term->cell(k));
+      double* const own = out.data() + cell * components;
+      const bool is_first = filled[cell] == 0;
+      if (is_first && (share == 1 || of_plies != OfPlies::mean)) {
+        f(*term, k, own);
+      } else if (of_plies != OfPlies::first) {
+        f(*term, k, of_ply.data());
+        for (std::size_t c = 0; c < components; ++c)
+          own[c] = of_plies == OfPlies::mean ? own[c] + share * of_ply[c] : std::min(own[c], of_ply[c]);
+      }
+      filled[cell] += share;
+    }
+  }
   return out;
 }
 
@@ -34,7 +51,8 @@ FemOutput mean_of_cells(const TensorField& tensor) {
   return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Element mean.", tensor.sentence),
            tensor.components},
           [&tensor](const View& view) {
-            return per_cell(view, 6, [&](const ElasticTerm& term, int k, double* out) {
+            const OfPlies of_plies = tensor.in_space ? OfPlies::mean : OfPlies::first;
+            return per_cell(view, 6, of_plies, [&](const ElasticTerm& term, int k, double* out) {
               const Vec6 v = tensor(term.observe(k, view.state()));
               std::copy(v.begin(), v.end(), out);
             });
@@ -80,7 +98,8 @@ Values mesh_error_density(const View& view) {
   Values out(view.parts().mesh.region_of.size());
   for (std::size_t r = 0; r < terms.size(); ++r)
     for (int k = 0; k < terms[r]->size(); ++k)
-      out[static_cast<std::size_t>(terms[r]->cell(k))] = errors[r].error[k] / errors[r].volume[k];
+      out[static_cast<std::size_t>(terms[r]->cell(k))] +=
+          errors[r].error[k] / errors[r].volume[k] * terms[r]->definition().share;
   return out;
 }
 
@@ -97,7 +116,7 @@ FemOutput material_axis(int axis) {
   return {{"material_axis_" + std::to_string(axis + 1), Location::cell, 3, "1",
            "Material axis " + std::to_string(axis + 1) + ", rotated with the element."},
           [axis](const View& view) {
-            return per_cell(view, 3, [&](const ElasticTerm& term, int k, double* out) {
+            return per_cell(view, 3, OfPlies::first, [&](const ElasticTerm& term, int k, double* out) {
               const Vec3 direction = term.observe(k, view.state()).axes.col(axis);
               std::copy(direction.begin(), direction.end(), out);
             });
@@ -213,13 +232,13 @@ std::vector<FemOutput> make_outputs() {
       {{"region", Location::cell, 1, "1", "Index of the region."},
        [](const View& view) {
          const auto& regions = view.parts().mesh.region_of;
-         return per_cell(view, 1, [&](const ElasticTerm& term, int k, double* out) {
+         return per_cell(view, 1, OfPlies::first, [&](const ElasticTerm& term, int k, double* out) {
            *out = regions[static_cast<std::size_t>(term.cell(k))];
          });
        }},
       {{"det_f", Location::cell, 1, "1", "Volume ratio det F; not positive where inverted."},
        [](const View& view) {
-         return per_cell(view, 1,
+         return per_cell(view, 1, OfPlies::smallest,
                          [&](const ElasticTerm& term, int k, double* out) { *out = term.det_F(k, view.state()); });
        }},
       material_axis(0),

@@ -10,7 +10,7 @@ namespace {
 // Values of one element, one row per node or point.
 constexpr int kMostNodes = ElementType::kMostNodes;
 using ElementRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, kMostNodes, 6>;
-using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostNodes, kMostNodes>;
+using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostNodes, kMostNodes>;
 
 // Elastic energy of stress fields given at the nodes of a term's elements.
 class EnergyOfStress {
@@ -18,9 +18,9 @@ class EnergyOfStress {
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
       : mesh_(mesh),
         term_(term),
-        type_(mesh.type(static_cast<std::size_t>(term.cell(0)))),
+        type_(term.type()),
         compliance_(Mat6(term.stiffness().inverse())),
-        straight_(topology(type_.shape()).corners == kCornersOfTet ? shares_of(unit_tetrahedron()) : ElementMatrix()) {
+        straight_(topology(type_.shape()).corners == kCornersOfTet ? shares_of(unit_tetrahedron()) : NodeMatrix()) {
     if (term.definition().axes.uniform()) in_space_ = compliance_in_space(0);
   }
 
@@ -37,11 +37,11 @@ class EnergyOfStress {
   static constexpr int kCornersOfTet = 4;
 
   // Integrals of N_a N_b divided by the volume: the same for all tetrahedra with straight edges.
-  ElementMatrix shares(int k) const {
+  NodeMatrix shares(int k) const {
     const ElementType::Nodes X = positions(k);
     return straight_.size() > 0 && is_straight(X) ? straight_ : shares_of(X);
   }
-  ElementMatrix shares_of(const ElementType::Nodes& X) const {
+  NodeMatrix shares_of(const ElementType::Nodes& X) const {
     return type_.consistent_mass(X, 1) / type_.lumped_mass(X, 1).sum();
   }
 
@@ -72,25 +72,27 @@ class EnergyOfStress {
     return to_material.transpose() * compliance_ * to_material;
   }
 
-  ElementType::Nodes positions(int k) const { return mesh_.positions(static_cast<std::size_t>(term_.cell(k))); }
+  ElementType::Nodes positions(int k) const {
+    return type_.part(mesh_.positions(static_cast<std::size_t>(term_.cell(k))));
+  }
 
   const ElementMesh& mesh_;
   const ElasticTerm& term_;
   const ElementType& type_;
   Mat6 compliance_;
   std::optional<Mat6> in_space_;  // compliance_in_space(), if equal for all elements
-  ElementMatrix straight_;        // shares() of a tetrahedron with straight edges; empty for other elements
+  NodeMatrix straight_;           // shares() of a tetrahedron with straight edges; empty for other elements
 };
 
 // Stresses of a region at the nodes of its elements: computed() extrapolates from the points, misfit() is recovered
 // minus extrapolated.
 class NodalStresses {
  public:
-  NodalStresses(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed)
+  NodalStresses(const ElementType& type, const RegionRecovery& recovery, const SixColumns& computed)
       : cells_(recovery.cells()),
         computed_(computed),
-        recovered_(recovery.at_nodes(mesh, computed)),
-        extrapolation_(element_type(recovery.cells().shape(0)).points_to_nodes()) {}
+        recovered_(recovery.at_nodes(computed)),
+        extrapolation_(type.points_to_nodes()) {}
 
   Eigen::Index nodes() const { return extrapolation_.rows(); }
   ElementRows computed(Eigen::Index k) const {
@@ -108,13 +110,13 @@ class NodalStresses {
   const Cells& cells_;
   const SixColumns& computed_;
   SixColumns recovered_;
-  ElementMatrix extrapolation_;
+  Eigen::MatrixXd extrapolation_;
 };
 
 }  // namespace
 
-SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed) {
-  const NodalStresses at(mesh, recovery, computed);
+SixColumns misfit_of_region(const ElementType& type, const RegionRecovery& recovery, const SixColumns& computed) {
+  const NodalStresses at(type, recovery, computed);
   SixColumns out(at.nodes() * static_cast<Eigen::Index>(recovery.cells().size()), 6);
   for (Eigen::Index k = 0; k < out.rows() / at.nodes(); ++k)
     out.middleRows(at.nodes() * k, at.nodes()) = at.misfit(k, at.computed(k));
@@ -125,7 +127,7 @@ RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, con
                            const std::vector<int>& places, const SixColumns& computed) {
   RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
   if (term.size() == 0) return out;
-  const NodalStresses at(mesh, recovery, computed);
+  const NodalStresses at(term.type(), recovery, computed);
   const EnergyOfStress energy(mesh, term);
   for (int k = 0; k < term.size(); ++k) {
     const int place = places[static_cast<std::size_t>(k)];
@@ -141,7 +143,7 @@ double misfit_product(const ElementMesh& mesh, const ElasticTerm& term, const st
                       const SixColumns& a, const SixColumns& b) {
   if (term.size() == 0) return 0;
   const EnergyOfStress energy(mesh, term);
-  const Eigen::Index nodes = mesh.type(static_cast<std::size_t>(term.cell(0))).num_nodes();
+  const Eigen::Index nodes = term.type().num_nodes();
   double sum = 0;
   for (int k = 0; k < term.size(); ++k) {
     const Eigen::Index first = nodes * places[static_cast<std::size_t>(k)];

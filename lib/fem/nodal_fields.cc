@@ -64,12 +64,12 @@ void raise(const std::vector<double>& values, double* at) {
   if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
 }
 
-// Calls visit(node, tensor) for the nodes of a region.
+// Calls visit(node, tensor, inside) for the nodes of a region.
 template <class Visit>
 void for_each_node(RecoveredTensors& recovered, const TensorField& tensor, std::size_t region, Visit&& visit) {
-  const auto& [nodes, values] = recovered.of(tensor, region);
+  const auto& [nodes, inside, values] = recovered.of(tensor, region);
   for (std::size_t i = 0; i < nodes->size(); ++i)
-    visit(static_cast<std::size_t>((*nodes)[i]), Vec6(values.row(static_cast<Eigen::Index>(i))));
+    visit(static_cast<std::size_t>((*nodes)[i]), Vec6(values.row(static_cast<Eigen::Index>(i))), (*inside)[i] != 0);
 }
 
 }  // namespace
@@ -81,9 +81,9 @@ const std::vector<TensorField>& tensor_fields() {
       {"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)", material,
        [](const PointObservation& o) { return o.strain; }},
       {"strain_space", "1", "Strain S - I rotated with the body into space axes: xx, yy, zz, xy, yz, zx (tensor shear)",
-       space, [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }},
+       space, [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }, true},
       {"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted", space,
-       [](const PointObservation& o) { return o.cauchy; }},
+       [](const PointObservation& o) { return o.cauchy; }, true},
       {"stress_material", "Pa", "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31", material,
        [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }}};
   return all;
@@ -113,17 +113,19 @@ const StressRecovery::NodalValues& RecoveredTensors::of(const TensorField& tenso
   return kept_.emplace(key, recovery_.at_nodes_of_region(region, state_, tensor)).first->second;
 }
 
-std::optional<Vec6> RecoveredTensors::at(const TensorField& tensor, std::size_t region, int node) {
+std::optional<StressRecovery::NodalValue> RecoveredTensors::at(const TensorField& tensor, std::size_t region,
+                                                               int node) {
   const auto kept = kept_.find({&tensor, region});
   if (kept == kept_.end() && !recovery_.has_ranks()) {
     const auto [own, is_new] = kept_at_.try_emplace({&tensor, region, node});
     if (is_new) own->second = recovery_.at_node_of_region(region, node, state_, tensor);
     return own->second;
   }
-  const auto& [nodes, values] = of(tensor, region);
+  const auto& [nodes, inside, values] = of(tensor, region);
   const auto found = std::find(nodes->begin(), nodes->end(), node);
   if (found == nodes->end()) return std::nullopt;
-  return Vec6(values.row(found - nodes->begin()));
+  const auto row = found - nodes->begin();
+  return StressRecovery::NodalValue{Vec6(values.row(row)), (*inside)[static_cast<std::size_t>(row)] != 0};
 }
 
 std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region) {
@@ -131,12 +133,13 @@ std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorFie
   const auto at = [&](std::size_t node) { return Eigen::Map<Vec6>(out.data() + 6 * node); };
   if (region >= 0) {
     for_each_node(recovered, tensor, static_cast<std::size_t>(region),
-                  [&](std::size_t node, const Vec6& value) { at(node) = value; });
+                  [&](std::size_t node, const Vec6& value, bool) { at(node) = value; });
     return out;
   }
   std::vector<int> count(recovered.num_nodes(), 0);
   for (std::size_t r = 0; r < recovered.num_regions(); ++r)
-    for_each_node(recovered, tensor, r, [&](std::size_t node, const Vec6& value) {
+    for_each_node(recovered, tensor, r, [&](std::size_t node, const Vec6& value, bool inside) {
+      if (!inside) return;
       at(node) += value;
       ++count[node];
     });
@@ -149,7 +152,7 @@ std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRe
   const std::size_t count = num_components(derived);
   std::vector<double> out(count * recovered.num_nodes(), kNone);
   for (const std::size_t r : regions_of(region, terms.size()))
-    for_each_node(recovered, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
+    for_each_node(recovered, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor, bool) {
       raise(derived.of(tensor, terms[r]->definition()), out.data() + count * node);
     });
   return out;
@@ -159,8 +162,8 @@ std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorFiel
   Vec6 sum = Vec6::Zero();
   int count = 0;
   for (const std::size_t r : regions_of(region, recovered.num_regions()))
-    if (const auto value = recovered.at(tensor, r, node)) {
-      sum += *value;
+    if (const auto found = recovered.at(tensor, r, node); found && (found->inside || region >= 0)) {
+      sum += found->value;
       ++count;
     }
   if (count == 0 && region >= 0) return std::vector<double>(6, kNone);
@@ -172,8 +175,8 @@ std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRec
                                     const DerivedField& derived, int region, int node) {
   std::vector<double> out(num_components(derived), kNone);
   for (const std::size_t r : regions_of(region, terms.size()))
-    if (const auto tensor = recovered.at(tensor_of(derived), r, node))
-      raise(derived.of(*tensor, terms[r]->definition()), out.data());
+    if (const auto found = recovered.at(tensor_of(derived), r, node))
+      raise(derived.of(found->value, terms[r]->definition()), out.data());
   return out;
 }
 

@@ -1,5 +1,7 @@
 // Fields at the nodes that derive from recovered stress and strain tensors (stress_recovery.h): invariants and failure
-// criteria. Each region is evaluated with its own material; a node of several regions takes the largest value.
+// criteria. Each region is evaluated with its own material; a node of several regions takes the largest value. A ply
+// counts as a region: it has values where its own bottom, middle and top are, which are listed at the cell's nodes. For
+// the whole body, tensors at a node are means over the regions and plies that contain it.
 #pragma once
 
 #include <map>
@@ -19,6 +21,7 @@ struct TensorField {
   const char *name, *unit, *sentence;
   std::vector<std::string> components;
   Mat3 (*pick)(const PointObservation&);
+  bool in_space = false;  // components along the space axes; otherwise along the material axes
 
   Vec6 operator()(const PointObservation& o) const {
     const Mat3 s = pick(o);
@@ -53,7 +56,7 @@ class RecoveredTensors {
 
   // The tensor at one node, from the elements around it unless of() has been called; empty if the node is not of the
   // region. Collective with several ranks.
-  std::optional<Vec6> at(const TensorField& tensor, std::size_t region, int node);
+  std::optional<StressRecovery::NodalValue> at(const TensorField& tensor, std::size_t region, int node);
 
   std::size_t num_nodes() const { return recovery_.num_nodes(); }
   std::size_t num_regions() const { return recovery_.num_regions(); }
@@ -62,7 +65,7 @@ class RecoveredTensors {
   const StressRecovery& recovery_;
   NodalState state_;
   std::map<std::pair<const TensorField*, std::size_t>, StressRecovery::NodalValues> kept_;
-  std::map<std::tuple<const TensorField*, std::size_t, int>, std::optional<Vec6>> kept_at_;
+  std::map<std::tuple<const TensorField*, std::size_t, int>, std::optional<StressRecovery::NodalValue>> kept_at_;
 };
 
 // Values at all nodes of the mesh, node by node; NaN outside the region. `region`: index of an elastic term, or -1 for

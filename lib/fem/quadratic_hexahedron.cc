@@ -8,4 +8,10 @@ const ElementType& quadratic_hexahedron() {
   return type;
 }
 
+const ElementType& quadratic_hexahedron_14() {
+  static const ElementTypeOf<Hex20> type(
+      {irons_points(), Hex20::nodes(), Hex20::extrapolation(irons_points(), &Hex20::interpolation_14)});
+  return type;
+}
+
 }  // namespace orthodyn

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "lib/core/symmetric_eigen.h"
@@ -90,8 +89,13 @@ Mat3 principal_axes(const Eigen::Matrix3Xd& places) {
   return spread.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
 }
 
-// Fits the points. The second result tells whether they determine all coefficients.
-std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
+struct Fit {
+  PatchFit patch;
+  bool has_full_rank;
+  bool is_determined;  // by enough points, too
+};
+
+Fit fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
   const Mat3 to_patch = principal_axes(places);
   Eigen::MatrixXd A = monomials_at(places, centre, to_patch, degree);
   const Vector means = A.colwise().mean();
@@ -102,14 +106,19 @@ std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre
   for (Eigen::Index i = 0; i < A.cols(); ++i)
     if (pairs.values[i] > smallest)
       inverse += pairs.vectors.col(i) / pairs.values[i] * pairs.vectors.col(i).transpose();
-  const bool determined = pairs.values[0] > smallest && A.rows() >= kPointsPerCoefficient * (A.cols() + 1);
-  return {{centre, to_patch, means, std::move(inverse)}, determined};
+  const bool has_full_rank = pairs.values[0] > smallest;
+  return {{centre, to_patch, means, std::move(inverse)},
+          has_full_rank,
+          has_full_rank && A.rows() >= kPointsPerCoefficient * (A.cols() + 1)};
 }
+
+// Points in two layers do not tell z from z^2. About their mean z^2 is a constant, so that the fit is linear in z.
+Vec3 mean_of(const Eigen::Matrix3Xd& places) { return places.rowwise().mean(); }
 
 }  // namespace
 
-RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points)
-    : per_element_(num_points) {
+RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, const ElementType& type)
+    : per_element_(type.num_points()) {
   std::vector<int> row_of(mesh.nodes.size(), -1), rows;
   for (const int cell : cells) {
     rows.clear();
@@ -124,25 +133,33 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& 
     cells_.add(mesh.cells.shape(static_cast<std::size_t>(cell)), rows);
   }
   if (cells.empty()) return;
-  const ElementType& type = mesh.type(static_cast<std::size_t>(cells.front()));
   degree_ = type.degree();
   places_.resize(3, per_element_ * static_cast<Eigen::Index>(cells.size()));
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    places_.middleCols(per_element_ * static_cast<Eigen::Index>(k), per_element_) =
-        type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
+  node_places_.resize(3, static_cast<Eigen::Index>(nodes_.size()));
+  inside_.resize(nodes_.size());
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const ElementType::Nodes X = mesh.positions(static_cast<std::size_t>(cells[k])), part = type.part(X);
+    places_.middleCols(per_element_ * static_cast<Eigen::Index>(k), per_element_) = type.points(X);
+    for (Eigen::Index a = 0; a < part.cols(); ++a) {
+      const int row = cells_[k][static_cast<std::size_t>(a)];
+      node_places_.col(row) = part.col(a);
+      inside_[static_cast<std::size_t>(row)] = type.holds(static_cast<int>(a));
+    }
+  }
 
   RegionNeighbours neighbours(cells_, nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
-    const Vec3& centre = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(row)])];
-    auto [found, determined] = fit(places_of(elements), centre, degree_);
-    for (int ring = 0; !determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
-      std::tie(found, determined) = fit(places_of(elements), centre, degree_);
+    const Vec3 centre = node_places_.col(row);
+    Fit found = fit(places_of(elements), centre, degree_);
+    for (int ring = 0; !found.is_determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
+      found = fit(places_of(elements), centre, degree_);
+    if (!found.has_full_rank) found = fit(places_of(elements), mean_of(places_of(elements)), degree_);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
     elements.shrink_to_fit();
-    patches_.push_back({row, std::move(elements), std::move(found), {}});
+    patches_.push_back({row, std::move(elements), std::move(found.patch), {}});
   }
   patches_.shrink_to_fit();
   add_middles(patch_of);
@@ -173,12 +190,12 @@ Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) con
   return all;
 }
 
-SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const {
-  return degree_ == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
+SixColumns RegionRecovery::at_nodes(const SixColumns& at_points) const {
+  return degree_ == 1 ? at_nodes_with<kLinear>(at_points) : at_nodes_with<kQuadratic>(at_points);
 }
 
-Vec6 RegionRecovery::at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const {
-  return degree_ == 1 ? at_node_with<kLinear>(mesh, row, at_point) : at_node_with<kQuadratic>(mesh, row, at_point);
+Vec6 RegionRecovery::at_node(int row, const AtPoint& at_point) const {
+  return degree_ == 1 ? at_node_with<kLinear>(row, at_point) : at_node_with<kQuadratic>(row, at_point);
 }
 
 // Fits polynomials to values at the points of patches.
@@ -187,7 +204,7 @@ class RegionRecovery::PatchSolver {
  public:
   using Row = Eigen::Matrix<double, 1, 6>;
 
-  PatchSolver(const RegionRecovery& region, const ElementMesh& mesh) : region_(region), mesh_(mesh) {
+  explicit PatchSolver(const RegionRecovery& region) : region_(region) {
     std::size_t most = 0;
     for (const Patch& patch : region.patches_) most = std::max(most, patch.elements.size());
     monomials_.resize(region.per_element_ * static_cast<Eigen::Index>(most), kCoefficients);
@@ -210,10 +227,7 @@ class RegionRecovery::PatchSolver {
   }
 
   // The polynomial at a node, an index into nodes().
-  Row at(int row) const {
-    return mean_ +
-           relative(mesh_.nodes[static_cast<std::size_t>(region_.nodes_[static_cast<std::size_t>(row)])]) * slopes_;
-  }
+  Row at(int row) const { return mean_ + relative(region_.node_places_.col(row)) * slopes_; }
 
  private:
   Eigen::Matrix<double, 1, kCoefficients> relative(const Vec3& place) const {
@@ -224,7 +238,6 @@ class RegionRecovery::PatchSolver {
 
   using Slopes = Eigen::Matrix<double, kCoefficients, 6>;
   const RegionRecovery& region_;
-  const ElementMesh& mesh_;
   const Patch* patch_ = nullptr;
   Eigen::Matrix<double, Eigen::Dynamic, kCoefficients>
       monomials_;  // one row per point, as many as the largest patch has
@@ -234,9 +247,9 @@ class RegionRecovery::PatchSolver {
 };
 
 template <int kCoefficients>
-SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const {
+SixColumns RegionRecovery::at_nodes_with(const SixColumns& at_points) const {
   SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
-  PatchSolver<kCoefficients> solver(*this, mesh);
+  PatchSolver<kCoefficients> solver(*this);
   for (const Patch& patch : patches_) {
     solver.fit(patch, [&](int k, int p) { return at_points.row(per_element_ * k + p); });
     out.row(patch.row) = solver.at(patch.row);
@@ -246,9 +259,9 @@ SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColum
 }
 
 template <int kCoefficients>
-Vec6 RegionRecovery::at_node_with(const ElementMesh& mesh, int row, const AtPoint& at_point) const {
+Vec6 RegionRecovery::at_node_with(int row, const AtPoint& at_point) const {
   Vec6 out = Vec6::Zero();
-  PatchSolver<kCoefficients> solver(*this, mesh);
+  PatchSolver<kCoefficients> solver(*this);
   for (const Patch& patch : patches_) {
     const bool is_centre = patch.row == row;
     const auto middle =

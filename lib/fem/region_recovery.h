@@ -17,7 +17,7 @@ using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 // relative to their means, so that constants are exact even with too few points. Coordinates are along the principal
 // axes of the points and scaled by their spread, so that patches of thin bodies are well conditioned.
 struct PatchFit {
-  Vec3 centre;              // m
+  Vec3 centre;              // origin of the polynomial, m: the corner, or the mean of points that lack full rank
   Mat3 to_patch;            // maps a place relative to the centre to patch coordinates, 1/m
   Vector means;             // of the monomials
   Eigen::MatrixXd inverse;  // (pseudo-)inverse of the normal equations
@@ -26,18 +26,21 @@ struct PatchFit {
 // Recovery for one region. Point p of element k has the index num_points * k + p.
 class RegionRecovery {
  public:
-  // `cells`: the region's elements, by their indices in the mesh, all of one type.
-  RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points);
+  // `cells`: the region's elements, by their indices in the mesh, all of the given type.
+  RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, const ElementType& type);
 
-  // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node. `mesh`: that
-  // of the constructor. `at_points`: one row per point.
+  // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node; for a ply at
+  // the nodes of ElementType::part(). `at_points`: one row per point.
   const std::vector<int>& nodes() const { return nodes_; }
-  SixColumns at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const;
+  SixColumns at_nodes(const SixColumns& at_points) const;
 
   // The values recovered at one node; `row` is its index in nodes(). `at_point` returns the values of element k at its
   // point p. It is called only for the points of the patches around the node.
   using AtPoint = std::function<Vec6(int k, int p)>;
-  Vec6 at_node(const ElementMesh& mesh, int row, const AtPoint& at_point) const;
+  Vec6 at_node(int row, const AtPoint& at_point) const;
+
+  // Whether the nodes lie in the part of the cells that the elements integrate; parallel to nodes().
+  const std::vector<char>& inside() const { return inside_; }
 
   // Nodes of each element, as indices into nodes().
   const Cells& cells() const { return cells_; }
@@ -60,11 +63,13 @@ class RegionRecovery {
   template <int kCoefficients>
   class PatchSolver;
   template <int kCoefficients>
-  SixColumns at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const;
+  SixColumns at_nodes_with(const SixColumns& at_points) const;
   template <int kCoefficients>
-  Vec6 at_node_with(const ElementMesh& mesh, int row, const AtPoint& at_point) const;
+  Vec6 at_node_with(int row, const AtPoint& at_point) const;
 
   std::vector<int> nodes_;
+  std::vector<char> inside_;
+  Eigen::Matrix3Xd node_places_;  // m, parallel to nodes_
   Cells cells_;
   Eigen::Index per_element_;    // points per element
   int degree_ = 1;              // of the polynomials

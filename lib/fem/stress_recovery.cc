@@ -43,15 +43,15 @@ const std::vector<StressRecovery::Region>& StressRecovery::regions() const {
 StressRecovery::Region StressRecovery::make_region(const ElementMesh& mesh, const ElasticTerm& term) const {
   std::vector<int> own, places;
   for (int k = 0; k < term.size(); ++k) own.push_back(term.cell(k)), places.push_back(k);
-  if (!subdomain_) return {RegionRecovery(mesh, own, term.num_points()), places};
-  const auto name = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), term.region());
+  if (!subdomain_) return {RegionRecovery(mesh, own, term.type()), places};
+  const auto name = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), term.definition().mesh_region);
   const auto region = static_cast<int>(name - mesh_.region_names.begin());
   std::vector<int> all;
   for (int cell = 0; cell < static_cast<int>(mesh_.region_of.size()); ++cell)
     if (mesh_.region_of[static_cast<std::size_t>(cell)] == region) all.push_back(cell);
   for (std::size_t k = 0; k < own.size(); ++k)
     places[k] = static_cast<int>(std::lower_bound(all.begin(), all.end(), own[k]) - all.begin());
-  return {RegionRecovery(mesh, all, term.num_points()), places};
+  return {RegionRecovery(mesh, all, term.type()), places};
 }
 
 SixColumns StressRecovery::of_all_ranks(std::size_t region, SixColumns at_points) const {
@@ -69,17 +69,19 @@ StressRecovery::NodalValues StressRecovery::at_nodes_of_region(std::size_t regio
                                                                const Pick& pick) const {
   const ElasticTerm& term = *terms_[region];
   const RegionRecovery& recovery = regions()[region].recovery;
-  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, s, pick)))};
+  return {&recovery.nodes(), &recovery.inside(), recovery.at_nodes(of_all_ranks(region, at_points(term, s, pick)))};
 }
 
-std::optional<Vec6> StressRecovery::at_node_of_region(std::size_t region, int node, const NodalState& s,
-                                                      const Pick& pick) const {
+std::optional<StressRecovery::NodalValue> StressRecovery::at_node_of_region(std::size_t region, int node,
+                                                                            const NodalState& s,
+                                                                            const Pick& pick) const {
   const ElasticTerm& term = *terms_[region];
   const RegionRecovery& recovery = regions()[region].recovery;
   const auto found = std::find(recovery.nodes().begin(), recovery.nodes().end(), node);
   if (found == recovery.nodes().end()) return std::nullopt;
   const auto row = static_cast<int>(found - recovery.nodes().begin());
-  return recovery.at_node(ElementMesh(mesh_), row, [&](int k, int p) { return pick(term.observe_point(k, p, s)); });
+  const Vec6 value = recovery.at_node(row, [&](int k, int p) { return pick(term.observe_point(k, p, s)); });
+  return NodalValue{value, recovery.inside()[static_cast<std::size_t>(row)] != 0};
 }
 
 std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) const {
@@ -93,10 +95,9 @@ std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) co
 }
 
 StressMisfit StressRecovery::misfit_of(const std::vector<SixColumns>& at_points) const {
-  const ElementMesh mesh(mesh_);
   StressMisfit all;
   for (std::size_t r = 0; r < terms_.size(); ++r)
-    all.push_back(misfit_of_region(mesh, regions()[r].recovery, at_points[r]));
+    all.push_back(misfit_of_region(terms_[r]->type(), regions()[r].recovery, at_points[r]));
   return all;
 }
 

@@ -42,14 +42,20 @@ class StressRecovery {
   // Recovers six components of a point observation in the region of one term. `nodes` refers to this object.
   using Pick = std::function<Vec6(const PointObservation&)>;
   struct NodalValues {
-    const std::vector<int>* nodes;  // indices in the mesh
-    SixColumns values;              // one row per node
+    const std::vector<int>* nodes;    // indices in the mesh
+    const std::vector<char>* inside;  // whether the node lies in the term's part of its cells: RegionRecovery::inside()
+    SixColumns values;                // one row per node
   };
   NodalValues at_nodes_of_region(std::size_t region, const NodalState& s, const Pick& pick) const;
 
   // The values of at_nodes_of_region() at one node of the mesh, from the elements around it; empty if the node is not
   // of the region. Precondition: one rank.
-  std::optional<Vec6> at_node_of_region(std::size_t region, int node, const NodalState& s, const Pick& pick) const;
+  struct NodalValue {
+    Vec6 value;
+    bool inside;
+  };
+  std::optional<NodalValue> at_node_of_region(std::size_t region, int node, const NodalState& s,
+                                              const Pick& pick) const;
   bool has_ranks() const { return subdomain_ != nullptr; }
 
   // Error estimates of all terms, for their elements on this rank.
@@ -87,7 +93,7 @@ class StressRecovery {
 // region. `places`: index of each of the term's elements in the region.
 
 // Recovered minus computed stress: one row per node of each element.
-SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed);
+SixColumns misfit_of_region(const ElementType& type, const RegionRecovery& recovery, const SixColumns& computed);
 
 RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
                            const std::vector<int>& places, const SixColumns& computed);

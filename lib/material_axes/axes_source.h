@@ -25,8 +25,8 @@ class AxesSource {
   virtual AxesField field(const Mesh& mesh, Warnings& notes) const = 0;
 };
 
-// The axes at the integration points of the elements `cells`.
-ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementMesh& mesh,
-                         const std::vector<int>& cells);
+// The axes at the integration points of the elements `cells`, which are of one type.
+ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementType& type,
+                         const ElementMesh& mesh, const std::vector<int>& cells);
 
 }  // namespace orthodyn

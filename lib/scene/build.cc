@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 
-#include "lib/fem/element_groups.h"
 #include "lib/material_axes/axes_source.h"
+#include "lib/scene/elastic_parts.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
@@ -17,78 +15,6 @@ namespace orthodyn {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double stiffness_damping(const Scene& scene, const Region& region) {
-  return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
-}
-
-std::vector<double> densities(const Scene& scene, const Mesh& mesh, const std::vector<const Region*>& regions) {
-  std::vector<double> out;
-  for (const int r : mesh.region_of) out.push_back(material_of(scene, *regions[static_cast<std::size_t>(r)]).density());
-  return out;
-}
-
-// A rank's cells of one region: local indices and, with several ranks, their indices in the whole mesh.
-struct CellsOfRank {
-  std::vector<int> here, numbers;
-};
-
-CellsOfRank cells_of_rank(const ElementMesh& own, const FemModel::Parts& parts, int region) {
-  const auto number = [&](int cell) { return parts.subdomain ? parts.subdomain->cells()[at(cell)] : cell; };
-  CellsOfRank cells;
-  for (std::size_t e = 0; e < own.cells.size(); ++e)
-    if (parts.mesh.region_of[at(number(static_cast<int>(e)))] == region) cells.here.push_back(static_cast<int>(e));
-  if (!cells.here.empty()) cells.here = by_place(own, std::move(cells.here));
-  if (parts.subdomain)
-    for (const int cell : cells.here) cells.numbers.push_back(number(cell));
-  return cells;
-}
-
-// The shape of each region's cells; empty for a region without cells. The fields of a region are recovered from
-// elements of one type, so that other regions are refused.
-std::vector<std::optional<CellShape>> shapes_of_regions(const Mesh& mesh) {
-  std::vector<std::optional<CellShape>> shapes(mesh.region_names.size());
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const CellShape shape = mesh.cells.shape(e);
-    const std::size_t region = at(mesh.region_of[e]);
-    if (!shapes[region]) shapes[region] = shape;
-    if (*shapes[region] != shape)
-      throw ConfigError(
-          "mesh", fmt::format("region '{}' has {} and {}; a region has elements of one kind: put each "
-                              "kind into a region of its own, or set `split: true` to make all of them "
-                              "tetrahedra",
-                              mesh.region_names[region], topology(*shapes[region]).plural, topology(shape).plural));
-  }
-  return shapes;
-}
-
-// Makes the elastic terms. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
-void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& own,
-                    FemModel::Parts& parts, Warnings& notes) {
-  const Mesh& mesh = parts.mesh;
-  const ElementMesh elements(mesh);
-  const auto shapes = shapes_of_regions(mesh);
-  std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    const Region& region = *regions[r];
-    const auto all = std::count(mesh.region_of.begin(), mesh.region_of.end(), static_cast<int>(r));
-    if (all == 0) continue;
-    AxesField& field = fields[&region];
-    if (!field) field = region.axes->field(mesh, notes);
-    CellsOfRank cells = cells_of_rank(own, parts, static_cast<int>(r));
-    const ElementAxes axes =
-        cells.here.empty() ? ElementAxes(Mat3::Identity())
-                           : element_axes(*region.axes, field, elements, parts.subdomain ? cells.numbers : cells.here);
-    parts.elastic.push_back(
-        element_type(*shapes[r])
-            .elastic_term(own,
-                          {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(), axes,
-                           stiffness_damping(scene, region), elasticity_of(scene, region),
-                           material_of(scene, region).strength(), std::move(cells.numbers), static_cast<int>(all)},
-                          *parts.pattern));
-    parts.densities.push_back(material_of(scene, region).density());
-  }
-}
 
 void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Parts& parts) {
   const Discretization body{parts.mesh, rest, *parts.pattern, parts.mass->row_sums(), parts.mass->total()};
@@ -178,8 +104,12 @@ void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& r
   if (std::none_of(data.begin(), data.end(), is_first_axis)) return;
   for (const Region* region : regions)
     if (!region->axes->uniform()) return;
+  const auto is_isotropic = [&](const std::string& material) {
+    return std::holds_alternative<IsotropicStiffness>(material_named(scene, material).stiffness());
+  };
   for (const Region* region : regions) {
-    if (std::holds_alternative<IsotropicStiffness>(material_of(scene, *region).stiffness())) continue;
+    const std::vector<std::string> materials = region->materials();
+    if (std::all_of(materials.begin(), materials.end(), is_isotropic)) continue;
     warnings.push_back(region->origin.where +
                        ": the mesh file has element axes, which the scene does not use; if they are material axes, set "
                        "axes: {type: file, file: the mesh file} for the regions");
@@ -241,6 +171,12 @@ std::vector<int> unknowns_of(const Subdomain& subdomain, const std::vector<bool>
   return out;
 }
 
+std::vector<double> cells_here(const std::vector<double>& of_all, const Subdomain& subdomain) {
+  std::vector<double> out;
+  for (const int cell : subdomain.cells()) out.push_back(of_all[at(cell)]);
+  return out;
+}
+
 NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
   NodePairs here;
   for (const auto& [a, b] : pairs)
@@ -256,6 +192,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   require_size(parts.mesh);
   const auto regions = assign_regions(scene, parts.mesh);
   warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
+  ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
   require_free_coordinates(scene, supports.held);
   NodePairs pairs = couplings(scene, parts.mesh);
@@ -278,7 +215,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const ElementMesh elements(own);
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
   if (subdomain) parts.pattern->set_share(*subdomain);
-  const auto density = densities(scene, own, regions);
+  const auto density = subdomain ? cells_here(elastic.density, *subdomain) : elastic.density;
   parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
   require_mass(parts.mass->total());
   const NodalVector rest = positions(parts.mesh);
@@ -287,7 +224,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   if (scene.is_static()) parts.loads_at = scene.time.end;
-  add_elasticity(scene, regions, elements, parts, loaded.warnings);
+  add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);

@@ -37,10 +37,18 @@ struct FieldOfRegion {
   std::string name() const { return region.empty() ? field : region + "." + field; }
 };
 
+// The whole body (""), the mesh's regions, and plies.
 std::vector<std::string> region_names(const FemModel& model) {
   std::vector<std::string> names{""};
-  for (const auto& term : model.parts().elastic) names.push_back(term->region());
+  for (const auto& term : model.parts().elastic)
+    for (const std::string& name : {term->definition().mesh_region, term->region()})
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
+}
+
+// Whether a term belongs to the region of this name, or is this ply.
+bool is_of(const ElasticTerm& term, const std::string& region) {
+  return term.region() == region || term.definition().mesh_region == region;
 }
 
 std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel& model) {
@@ -54,13 +62,14 @@ std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel&
   return std::nullopt;
 }
 
-// Names of the field in each region. A field of the whole body is evaluated region by region, because its value at a
-// node of several regions is a mean, which would hide a thin layer.
+// Names of the field in each region or ply. A field of the whole body is evaluated region by region, because its value
+// at a node of several regions is a mean, which would hide a thin layer.
 std::vector<std::string> names_in_regions(const FieldOfRegion& field, const FemModel& model) {
   const auto& terms = model.parts().elastic;
-  if (!field.region.empty() || terms.size() == 1) return {field.name()};
+  if (terms.size() == 1) return {field.name()};
   std::vector<std::string> names;
-  for (const auto& term : terms) names.push_back(term->region() + "." + field.field);
+  for (const auto& term : terms)
+    if (field.region.empty() || is_of(*term, field.region)) names.push_back(term->region() + "." + field.field);
   return names;
 }
 
@@ -96,7 +105,7 @@ void require_strengths(const std::string& field, const std::string& region, cons
   const ElasticTerm* const named = region_of(field, model);
   const std::string& wanted = named ? named->region() : region;
   for (const auto& term : model.parts().elastic)
-    if ((wanted.empty() || term->region() == wanted) && term->definition().strength) return;
+    if ((wanted.empty() || is_of(*term, wanted)) && term->definition().strength) return;
   fail_without_strength(field, wanted.empty() ? "a material" : "the material of region " + wanted, origin);
 }
 

@@ -10,14 +10,42 @@
 
 namespace orthodyn {
 
+template <>
+struct EnumNames<Integration> {
+  static constexpr std::array<std::pair<Integration, const char*>, 3> list{
+      {{Integration::automatic, "auto"}, {Integration::reduced, "reduced"}, {Integration::full, "full"}}};
+};
+
+std::vector<std::string> Region::materials() const {
+  if (layup.empty()) return {material};
+  std::vector<std::string> all;
+  for (const Ply& ply : layup) all.push_back(ply.material);
+  return all;
+}
+
 const Spec<Region>& Region::spec() {
   static const auto s = Spec<Region>()
-                            .key("material", &Region::material, "One of `materials`.", {.required = true})
+                            .key("material", &Region::material, "One of `materials`; required without a layup.")
+                            .key("layup", &Region::layup,
+                                 "Plies from bottom to top along axis 3 of `axes`, which goes through the thickness: "
+                                 "each with its material, the angle from axis 1 of `axes` to axis 1 of the material "
+                                 "about axis 3, and its thickness (m). For hexahedra and wedges; a cell may have "
+                                 "several plies.")
                             .key("axes", &Region::axes, "Directions of the material axes, uniform or varying in space.",
                                  {.fallback = "{type: directions}"})
                             .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
                                  {.unit = "s", .range = kNonNegative})
-                            .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.");
+                            .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.")
+                            .key("integration", &Region::integration,
+                                 "Of hexahedra of 20 nodes. reduced: 8 points, accurate for thin bodies. full: 14 "
+                                 "points, for rows that are one cell wide and high, which have shapes without "
+                                 "stiffness (hourglass) with 8. auto: full if the region has such rows.")
+                            .check([](const Region& region, const Config& config) {
+                              if (region.material.empty() && region.layup.empty())
+                                config.fail("key 'material' is missing: give a material or a layup");
+                              if (!region.material.empty() && !region.layup.empty())
+                                config.at("material").fail("has no effect beside a layup; remove one of them");
+                            });
   return s;
 }
 
@@ -37,8 +65,9 @@ void check_materials_exist(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& [name, material] : scene.materials) names.push_back(name);
   for (const auto& [name, region] : scene.regions)
-    if (std::find(names.begin(), names.end(), region.material) == names.end())
-      region.origin.fail("material '" + region.material + "' is not among the materials: " + join(names));
+    for (const std::string& material : region.materials())
+      if (std::find(names.begin(), names.end(), material) == names.end())
+        region.origin.fail("material '" + material + "' is not among the materials: " + join(names));
 }
 
 void check_kinematics(const Config& config, const Scene& scene) {
@@ -89,10 +118,10 @@ std::vector<const Region*> assign_regions(const Scene& scene, const Mesh& mesh) 
   return out;
 }
 
-const Material& material_of(const Scene& scene, const Region& region) {
-  for (const auto& [name, material] : scene.materials)
-    if (name == region.material) return *material;
-  region.origin.fail("unknown material");  // read_scene() has checked this
+const Material& material_named(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const auto& entry) { return entry.first == name; });
+  return *found->second;
 }
 
 const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::string& mesh_region) {

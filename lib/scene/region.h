@@ -11,18 +11,26 @@
 #include "lib/fem/terms/elasticity_options.h"
 #include "lib/material/material.h"
 #include "lib/mesh/mesh.h"
+#include "lib/scene/layup.h"
 
 namespace orthodyn {
 
 class AxesSource;
 struct Scene;
 
+// automatic: full for hexahedra in rows that are one cell wide and high (lib/mesh/cell_rows.h), otherwise reduced.
+enum class Integration { automatic, reduced, full };
+
 struct Region {
-  std::string material;
+  std::string material;    // empty if there is a layup
+  std::vector<Ply> layup;  // from bottom to top; empty for a region of one material
   std::shared_ptr<const AxesSource> axes;
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
+  Integration integration = Integration::automatic;
   SourceLocation origin;
+
+  std::vector<std::string> materials() const;  // of the region or of its plies
   static const Spec<Region>& spec();
 };
 
@@ -34,7 +42,8 @@ void complete_regions(const Config& config, Scene& scene);
 // regions without an entry and entries without a mesh region.
 std::vector<const Region*> assign_regions(const Scene& scene, const Mesh& mesh);
 
-const Material& material_of(const Scene& scene, const Region& region);
+// Precondition: the scene has the material.
+const Material& material_named(const Scene& scene, const std::string& name);
 
 // The scene's options of elasticity, with the region's kinematics if given.
 ElasticityOptions elasticity_of(const Scene& scene, const Region& region);

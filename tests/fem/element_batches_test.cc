@@ -28,7 +28,7 @@ void expect_copies_of_the_last_element(int order) {
   std::vector<int> cells(mesh.cells.size());
   std::iota(cells.begin(), cells.end(), 0);
   ASSERT_NE(cells.size() % Batch::kLanes, 0u);
-  const ElementBatches<E> elements(mesh, cells, ElementAxes(Mat3::Identity()));
+  const ElementBatches<E> elements(mesh, cells, ElementAxes(Mat3::Identity()), nullptr);
   const int last = elements.num_batches() - 1;
   // A NaN stress marks every node that it is added to, even with a volume of zero.
   Mat3T<Batch> P;

@@ -53,7 +53,7 @@ TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
   Warnings notes;
   const AxesField field = source->field(mesh, notes);
   const ElementMesh elements(mesh);
-  const ElementAxes axes = element_axes(*source, field, elements, {0, 1, 2, 3, 4});
+  const ElementAxes axes = element_axes(*source, field, quadratic_tetrahedron(), elements, {0, 1, 2, 3, 4});
   for (int k = 0; k < 5; ++k) {
     const auto points = quadratic_tetrahedron().points(elements.positions(static_cast<std::size_t>(k)));
     ASSERT_EQ(points.cols(), 4);

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/linear/solver.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/refine.h"
+#include "lib/mesh/selection.h"
 #include "lib/simulation/error_estimate/finer_model.h"
 #include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "lib/study/converge/richardson.h"
@@ -200,21 +202,49 @@ TEST_P(Solid, IsPressedUniformly) {
   EXPECT_NEAR(work, -3e-3, 1e-15);
 }
 
-std::string warnings_of(const std::string& cells) {
+Config row_of(const std::string& cells, const std::string& integration = "auto") {
+  return Config::from_text(fmt::format(
+      "mesh: {{type: box, size: [1, 0.1, 0.1], cells: {}, elements: hexahedra}}\nmaterials: {{m: {{type: isotropic, "
+      "density: 1000, young: 1 GPa, nu: 0}}}}\nregions: {{body: {{material: m, integration: {}}}}}\nclamps: "
+      "[{{surface: x0}}]\nloads: [{{surface: x1, force: [0, 0, -1]}}]\nanalysis: static\n",
+      cells, integration));
+}
+
+std::string warnings_of(const std::string& cells, const std::string& integration) {
   std::string all;
-  for (const std::string& warning : scene_warnings(Config::from_text(fmt::format(
-           "mesh: {{type: box, size: [1, 0.1, 0.1], cells: {}, elements: hexahedra}}\nmaterials: {{m: {{type: "
-           "isotropic, density: 1000, young: 1 GPa, nu: 0.3}}}}\nregions: {{body: {{material: m}}}}\nclamps: "
-           "[{{surface: x0}}]\nloads: [{{surface: x1, force: [0, 0, -1]}}]\nanalysis: static\n",
-           cells))))
-    all += warning + "\n";
+  for (const std::string& warning : scene_warnings(row_of(cells, integration))) all += warning + "\n";
   return all;
 }
 
 // A row that is one element wide and high has shapes without stiffness even if one end is held.
-TEST(RowsOfHexahedra, OfOneElementAreToldToHaveHourglassShapes) {
-  EXPECT_NE(warnings_of("[10, 1, 1]").find("10 hexahedra are without neighbours in two directions"), std::string::npos);
-  EXPECT_EQ(warnings_of("[10, 2, 1]").find("hourglass"), std::string::npos);
+TEST(RowsOfHexahedra, OfOneElementAreToldToHaveHourglassShapesWithReducedIntegration) {
+  EXPECT_NE(warnings_of("[10, 1, 1]", "reduced").find("10 hexahedra are without neighbours in two directions"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of("[10, 2, 1]", "reduced").find("hourglass"), std::string::npos);
+  EXPECT_EQ(warnings_of("[10, 1, 1]", "auto").find("hourglass"), std::string::npos);
+}
+
+TEST(RowsOfHexahedra, OfOneElementAreIntegratedFully) {
+  const auto points = [](const std::string& cells, const std::string& integration) {
+    return BuiltTestScene(row_of(cells, integration)).model().parts().elastic[0]->num_points();
+  };
+  EXPECT_EQ(points("[10, 1, 1]", "auto"), 14);
+  EXPECT_EQ(points("[10, 2, 1]", "auto"), 8);
+  EXPECT_EQ(points("[10, 2, 2]", "full"), 14);
+  EXPECT_EQ(points("[10, 1, 1]", "reduced"), 8);
+}
+
+// F L^3 / (3 E I) and the shear F L / (G A 5/6): 4e-5 m and 2.4e-7 m.
+TEST(RowsOfHexahedra, OfOneElementBendAsABeam) {
+  const BuiltTestScene s(row_of("[20, 1, 1]"));
+  Linearization at;
+  s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
+  const auto solver = make_linear_solver("cholesky");
+  solver->analyze(s.model().pattern());
+  ASSERT_EQ(solver->factor(at.stiffness.data()), FactorStatus::ok);
+  Vector u(s.size());
+  solver->solve(s.force(s.zero()), u);
+  EXPECT_NEAR(-s.nodal(u)(2, nearest_node(s.mesh(), {1, 0.1, 0.1})), 4.024e-5, 4e-3 * 4.024e-5);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::string with(std::string text, const std::string& cells, int order) {
 
 std::string block(const std::string& size, const std::string& material, const std::string& rest) {
   return "analysis: static\nelasticity: {kinematics: linear}\nmesh: {type: box, size: " + size +
-         ", cells: CELLS, order: ORDER}\nmaterials: {m: " + material + "}\n" + rest;
+         ", cells: CELLS, order: ORDER, elements: tetrahedra}\nmaterials: {m: " + material + "}\n" + rest;
 }
 
 std::string isotropic(double nu) { return fmt::format("{{type: isotropic, density: 1000, young: 1e9, nu: {}}}", nu); }
@@ -105,7 +105,7 @@ TEST(LockingFrequencies, AreSeenByFinerElements) {
   const auto analyse = [](const std::string& cells, const std::string& more) {
     const orthodyn::Setup setup =
         set_up(Config::from_text("mesh: {type: box, size: [0.4, 0.3, 0.003], cells: " + cells +
-                                 "}\nmaterials: {m: " + kSpruce + "}\ntime: {end: 1}\n" + more));
+                                 ", elements: tetrahedra}\nmaterials: {m: " + kSpruce + "}\ntime: {end: 1}\n" + more));
     const ModalAnalysis analysis(setup, 9, false);
     std::vector<std::pair<double, double>> out;
     for (std::size_t k = static_cast<std::size_t>(analysis.modes().zeros); k < 9; ++k)

@@ -137,8 +137,8 @@ materials:
 regions: {tip: {material: hard}, all: {material: soft}}
 time: {end: 1}
 )"));
-  EXPECT_EQ(material_of(scene, entry_of(scene, "tip").second).density(), 2);
-  EXPECT_EQ(material_of(scene, entry_of(scene, "body").second).density(), 1);
+  EXPECT_EQ(material_named(scene, entry_of(scene, "tip").second.material).density(), 2);
+  EXPECT_EQ(material_named(scene, entry_of(scene, "body").second.material).density(), 1);
   EXPECT_NEAR(build(scene).model->parts().mass->total(), 3, 1e-14);
 }
 

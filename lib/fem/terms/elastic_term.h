@@ -22,7 +22,8 @@
 
 namespace orthodyn {
 
-// A region of a mesh with its elastic constants and axes; the input of ElementType::elastic_term().
+// A region of a mesh with its elastic constants and axes, or a ply of a layered region; the input of
+// ElementType::elastic_term(). The plies of a region have the same cells.
 struct ElasticRegion {
   std::string name;
   std::vector<int> cells;  // indices in the mesh; may be empty on a rank
@@ -33,6 +34,8 @@ struct ElasticRegion {
   std::optional<Strength> strength = {};  // empty if the material has no strengths
   std::vector<int> numbers = {};          // indices of `cells` in the whole mesh; empty with one rank
   int elements = 0;                       // number of the region's elements on all ranks
+  std::string mesh_region = {};           // name of the region in the mesh; `name` except for a ply
+  double share = 1;                       // of a ply in the thickness of its cells
 };
 
 class ElasticTerm : public Term {
@@ -58,6 +61,9 @@ class ElasticTerm : public Term {
 
   // Strain, stress and axes of element k, for its mean deformation gradient.
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
+
+  // Type of the region's elements.
+  virtual const ElementType& type() const = 0;
 
   // Number of integration points per element, and strain, stress and axes at one of them.
   virtual int num_points() const = 0;

@@ -19,14 +19,18 @@ namespace orthodyn {
 template <Element E, class Law>
 class ElasticTermOf final : public ElasticTerm {
  public:
-  // The pattern must outlive the term, the mesh need not.
-  ElasticTermOf(const ElementMesh& mesh, ElasticRegion region, const Law& law, const BlockPattern& pattern)
-      : region_(std::move(region)),
+  // The type and the pattern must outlive the term, the mesh need not. `rule`: the integration points of the type, null
+  // for those of E.
+  ElasticTermOf(const ElementType& type, const ElementMesh& mesh, ElasticRegion region, const Law& law,
+                const BlockPattern& pattern, const IntegrationRule* rule)
+      : type_(type),
+        region_(std::move(region)),
         law_(law),
-        elements_(mesh, region_.cells, region_.axes),
+        elements_(mesh, region_.cells, region_.axes, rule),
         assembly_(elements_, pattern),
-        loops_(mesh, region_.cells) {
-    if constexpr (E::kPoints > 1)
+        loops_(mesh, region_.cells),
+        is_own_rule_(rule == nullptr) {
+    if (num_points() > 1)
       for (int k = 0; k < size(); ++k) {
         const int cell = region_.cells[static_cast<std::size_t>(k)];
         note_volume(k, mesh.positions(static_cast<std::size_t>(cell)));
@@ -38,7 +42,8 @@ class ElasticTermOf final : public ElasticTerm {
   std::string name() const override { return "elasticity of region " + region_.name; }
 
   std::string description() const override {
-    return fmt::format("{}: {}, {} elements{}", name(), law(), std::max(size(), region_.elements),
+    return fmt::format("{}: {}, {} elements{}{}", name(), law(), std::max(size(), region_.elements),
+                       is_own_rule_ ? "" : fmt::format(" with {} integration points", num_points()),
                        damped() ? fmt::format(", stiffness-proportional damping of {:.6g} s", region_.beta) : "");
   }
 
@@ -56,7 +61,7 @@ class ElasticTermOf final : public ElasticTerm {
       Columns v, force;
       bool first = true;
       if (damped()) v = elements_.differences(b, s.v);
-      for (int p = 0; p < E::kPoints; ++p) {
+      for (int p = 0; p < num_points(); ++p) {
         Mat3T<Batch> rate;
         if (damped()) rate = elements_.gradients(b, p, v);
         Batch::Mask good;
@@ -77,7 +82,7 @@ class ElasticTermOf final : public ElasticTerm {
         const Columns u0 = elements_.differences(b, s0.u), u1 = elements_.differences(b, s1.u);
         Columns force;
         bool first = true;
-        for (int p = 0; p < E::kPoints; ++p) {
+        for (int p = 0; p < num_points(); ++p) {
           Batch::Mask good;
           const Mat3T<Batch> P = law_.batch_mean_stress(elements_.gradients(b, p, u0), elements_.gradients(b, p, u1),
                                                         axes().batch(b, p), good);
@@ -140,20 +145,21 @@ class ElasticTermOf final : public ElasticTerm {
     return (region_.numbers.empty() ? region_.cells : region_.numbers)[static_cast<std::size_t>(k)];
   }
 
-  int num_points() const override { return E::kPoints; }
+  const ElementType& type() const override { return type_; }
+  int num_points() const override { return elements_.num_points(); }
 
   Mat3 small_strain(int k, int p, const NodalVector& u) const override {
     return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
   }
 
   Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const override {
-    Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, size() * E::kPoints);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, size() * num_points());
     for_each_gradient(s.u, [&](int b, int p, const Mat3T<Batch>& H) {
       Batch::Mask good;
       const auto all_lanes = voigt_strain<Batch>(law_.batch_strain(H, axes().batch(b, p), good));
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
-        auto own = out.col(k * E::kPoints + p);
+        auto own = out.col(k * num_points() + p);
         if (!good[l]) own = voigt_strain<double>(observe_point(k, p, s).strain);
         else
           for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
@@ -186,7 +192,7 @@ class ElasticTermOf final : public ElasticTerm {
 
   double det_F(int k, const NodalState& s) const override {
     double smallest = std::numeric_limits<double>::infinity();
-    for (int p = 0; p < E::kPoints; ++p)
+    for (int p = 0; p < num_points(); ++p)
       smallest = std::min(smallest,
                           deformation_gradient<double>(elements_.gradient(k, p, s.u), axes().of(k, p)).determinant());
     return smallest;
@@ -214,7 +220,7 @@ class ElasticTermOf final : public ElasticTerm {
     const Mat6 root = Mat6(Eigen::LLT<Mat6>(stiffness()).matrixL());
     double largest = 0;
     for (int k = 0; k < size(); ++k)
-      for (int p = 0; p < E::kPoints; ++p) {
+      for (int p = 0; p < num_points(); ++p) {
         const Mat6 A = root.transpose() * strain_gram(elements_.point(k, p), E::kLumpedShares) * root;
         largest = std::max(largest, symmetric_eigenvalues(A)[5]);
       }
@@ -250,7 +256,7 @@ class ElasticTermOf final : public ElasticTerm {
   void for_each_gradient(const NodalVector& u, Visit&& visit) const {
     loops_.for_each_batch([&](int b) {
       const Columns differences = elements_.differences(b, u);
-      for (int p = 0; p < E::kPoints; ++p) visit(b, p, elements_.gradients(b, p, differences));
+      for (int p = 0; p < num_points(); ++p) visit(b, p, elements_.gradients(b, p, differences));
     });
   }
 
@@ -260,7 +266,7 @@ class ElasticTermOf final : public ElasticTerm {
     return loops_.smallest([&](int b) {
       const Columns differences = elements_.differences(b, u);
       double smallest = std::numeric_limits<double>::infinity();
-      for (int p = 0; p < E::kPoints; ++p) {
+      for (int p = 0; p < num_points(); ++p) {
         const Batch all = of_F(deformation_gradient<Batch>(elements_.gradients(b, p, differences), axes().batch(b, p)));
         for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, all[l]);
       }
@@ -273,7 +279,7 @@ class ElasticTermOf final : public ElasticTerm {
   template <class OfBatch, class OfElement>
   double integral(int b, OfBatch&& of_batch, OfElement&& of_element) const {
     double sum = 0;
-    for (int p = 0; p < E::kPoints; ++p) {
+    for (int p = 0; p < num_points(); ++p) {
       Batch::Mask good;
       const Batch product = elements_.volumes(b, p) * of_batch(p, good);
       if (all(good))
@@ -285,10 +291,10 @@ class ElasticTermOf final : public ElasticTerm {
 
   // Mean of H over the element's volume, times the mean axes.
   Mat3 mean_gradient(int k, const NodalVector& u) const {
-    if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, u);
+    if (num_points() == 1) return elements_.gradient(k, 0, u);
     Mat3 sum = Mat3::Zero();
     double volume = 0;
-    for (int p = 0; p < E::kPoints; ++p) {
+    for (int p = 0; p < num_points(); ++p) {
       sum += elements_.volume(k, p) * elements_.gradient(k, p, u) * axes().of(k, p).transpose();
       volume += elements_.volume(k, p);
     }
@@ -297,8 +303,8 @@ class ElasticTermOf final : public ElasticTerm {
 
   void note_volume(int k, const ElementNodes<E::kNodes>& X) {
     double sum = 0;
-    for (int p = 0; p < E::kPoints; ++p) sum += elements_.volume(k, p);
-    volume_excess_ = std::max(volume_excess_, sum / E::mass(X, 1));
+    for (int p = 0; p < num_points(); ++p) sum += elements_.volume(k, p);
+    volume_excess_ = std::max(volume_excess_, sum / (region_.share * E::mass(X, 1)));
   }
 
   void add_element_tangent(int k, const NodalState& s, TangentKind kind, double* K, double* D) const {
@@ -320,7 +326,7 @@ class ElasticTermOf final : public ElasticTerm {
     if constexpr (requires { typename Law::BatchForm; }) {
       const Columns u = elements_.differences(b, s.u);
       ElementBlocks<E::kNodes, Batch> stiffness, damping;
-      for (int p = 0; p < E::kPoints; ++p) {
+      for (int p = 0; p < num_points(); ++p) {
         typename Law::BatchForm damping_form;
         Batch::Mask good;
         const auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
@@ -357,11 +363,13 @@ class ElasticTermOf final : public ElasticTerm {
     });
   }
 
+  const ElementType& type_;
   ElasticRegion region_;
   Law law_;
   ElementBatches<E> elements_;
   ElementAssembly<E> assembly_;
   BatchLoops loops_;
+  bool is_own_rule_;          // of E
   double volume_excess_ = 1;  // max over elements of (sum of the points' volumes) / volume
 };
 

@@ -50,10 +50,10 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
-            .key("elements", &BoxMesh::elements,
+            .key("elements", &BoxSource::elements_,
                  "tetrahedra; hexahedra: one element of 20 nodes per cell, for plates and other thin bodies; wedges: "
-                 "two of "
-                 "15 nodes per cell, with triangles in planes of constant z.")
+                 "two of 15 nodes per cell, with triangles in planes of constant z. Default: hexahedra for cells more "
+                 "than four times wider than thick, unless `order: 1` or `split` is given; otherwise tetrahedra.")
             .key("split", &BoxSource::split_,
                  "Tets per cell: five (mirror symmetric for even cell counts) or six (all cells alike). Default: six "
                  "for quadratic tetrahedra in cells more than three times wider than thick, where five are far too "
@@ -62,13 +62,15 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
-              if (box.elements != Elements::tetrahedra) {
+              const Elements elements = box.chosen_elements();
+              if (!box.elements_) config.fill("elements", Value<Elements>::yaml(elements));
+              if (elements != Elements::tetrahedra) {
                 if (box.order == 1)
                   config.at("order").fail(
                       "linear hexahedra and wedges cannot be computed; leave out `order`, or use tetrahedra");
                 if (box.split_) config.at("split").fail("divides cells into tetrahedra; remove it, or `elements`");
                 return check_mesh_size(
-                    (box.elements == Elements::wedges ? 2.0 : 1.0) * box.cells[0] * box.cells[1] * box.cells[2],
+                    (elements == Elements::wedges ? 2.0 : 1.0) * box.cells[0] * box.cells[1] * box.cells[2],
                     config.at("cells"));
               }
               if (!box.split_) config.fill("split", Value<Split>::yaml(box.chosen_split()));
@@ -79,6 +81,7 @@ class BoxSource : public MeshSource, public BoxMesh {
   }
   LoadedMesh load() const override {
     BoxMesh box = *this;
+    box.elements = chosen_elements();
     box.split = chosen_split();
     Mesh mesh = make_box(box);
     for (const auto& [name, part] : parts_) add_region(mesh, name, part);
@@ -89,15 +92,21 @@ class BoxSource : public MeshSource, public BoxMesh {
   int order = kDefaultOrder;
 
  private:
-  Split chosen_split() const { return split_.value_or(order == 2 && has_flat_cells() ? Split::six : Split::five); }
-  bool has_flat_cells() const {
+  Elements chosen_elements() const {
+    const bool is_plate = order == 2 && !split_ && flatness() > kPlate;
+    return elements_.value_or(is_plate ? Elements::hexahedra : Elements::tetrahedra);
+  }
+  Split chosen_split() const { return split_.value_or(order == 2 && flatness() > kFlat ? Split::six : Split::five); }
+  // Smaller width of the cells over their thickness.
+  double flatness() const {
     std::array<double, 3> edges;
     for (std::size_t i = 0; i < 3; ++i) edges[i] = size[static_cast<Eigen::Index>(i)] / cells[i];
     std::sort(edges.begin(), edges.end());
-    return edges[1] > kFlat * edges[0];
+    return edges[1] / edges[0];
   }
 
-  static constexpr double kFlat = 3;
+  static constexpr double kFlat = 3, kPlate = 4;
+  std::optional<Elements> elements_;
   std::optional<Split> split_;
   Named<BoxSelection> parts_;
 };

@@ -42,10 +42,11 @@ bool try_finer_elements(const FemModel& model, double& cpu_seconds, const Work& 
 std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::vector<NodalVector>& shapes) {
   const ElementMesh mesh(parts.mesh);
   std::vector<double> sums(shapes.size(), 0);
-  for (std::size_t r = 0; r < parts.elastic.size(); ++r)
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r) {
+    const double density = parts.densities[r] * parts.elastic[r]->definition().share;
     for (const int cell : parts.elastic[r]->definition().cells) {
       const auto c = static_cast<std::size_t>(cell);
-      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(mesh.positions(c), parts.densities[r]);
+      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(mesh.positions(c), density);
       const auto nodes = mesh.cells[c];
       ElementType::Nodes at(3, M.cols());
       for (std::size_t k = 0; k < shapes.size(); ++k) {
@@ -53,6 +54,7 @@ std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::v
         sums[k] += (at * M).cwiseProduct(at).sum();
       }
     }
+  }
   return sums;
 }
 

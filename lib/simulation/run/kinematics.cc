@@ -54,7 +54,7 @@ std::vector<LinearRegion> linear_regions(const Scene& scene, const std::vector<s
   for (const auto& name : names) {
     Linearity::Terms terms;
     for (std::size_t k = 0; k < model.parts().elastic.size(); ++k)
-      if (entry_of(scene, model.parts().elastic[k]->region()).first == name) terms.push_back(k);
+      if (entry_of(scene, model.parts().elastic[k]->definition().mesh_region).first == name) terms.push_back(k);
     if (!terms.empty()) regions.push_back({name, std::move(terms)});
   }
   return regions;

@@ -35,15 +35,17 @@ struct Moments {
 Moments of_the_body(const FemModel::Parts& parts) {
   const ElementMesh mesh(parts.mesh);
   Moments out;
-  for (std::size_t r = 0; r < parts.elastic.size(); ++r)
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r) {
+    const double density = parts.densities[r] * parts.elastic[r]->definition().share;
     for (const int cell : parts.elastic[r]->definition().cells) {
       const auto c = static_cast<std::size_t>(cell);
       const ElementType::Nodes X = mesh.positions(c);
-      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(X, parts.densities[r]);
+      const Eigen::MatrixXd M = mesh.type(c).consistent_mass(X, density);
       out.mass += M.sum();
       out.first += X * M.rowwise().sum();
       out.second += X * M * X.transpose();
     }
+  }
   return out;
 }
 

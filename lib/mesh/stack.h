@@ -1,0 +1,29 @@
+// The cells of a layered region: hexahedra and wedges in columns across its thickness.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lib/mesh/mesh.h"
+
+namespace orthodyn {
+
+// The cells that have the same place in their columns. Heights are relative to the height of the column: 0 at its
+// bottom, 1 at its top.
+struct StackLevel {
+  std::vector<int> cells;  // ascending
+  double bottom, top;
+};
+
+struct Stack {
+  std::vector<StackLevel> levels;
+  double height;  // of a column, m: the mean of all columns
+};
+
+// The cells of a region in columns along `direction` (a unit vector for each cell). Renumbers their nodes so that the
+// third natural coordinate of each cell grows along its direction. Throws ConfigError if a cell is no quadratic
+// hexahedron or wedge, if none of its axes is within 45 degrees of its direction, or if columns divide their height
+// differently (by more than 2 %).
+Stack make_stack(Mesh& mesh, int region, const std::function<Vec3(int cell)>& direction);
+
+}  // namespace orthodyn

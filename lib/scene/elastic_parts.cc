@@ -1,0 +1,184 @@
+#include "lib/scene/elastic_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "lib/fem/element_groups.h"
+#include "lib/mesh/cell_rows.h"
+#include "lib/mesh/stack.h"
+#include "lib/scene/layup.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::vector<std::vector<int>> cells_of_regions(const Mesh& mesh) {
+  std::vector<std::vector<int>> cells(mesh.region_names.size());
+  for (std::size_t e = 0; e < mesh.region_of.size(); ++e)
+    cells[static_cast<std::size_t>(mesh.region_of[e])].push_back(static_cast<int>(e));
+  return cells;
+}
+
+// The shape of a region's cells. The fields of a region are recovered from elements of one type, so that other regions
+// are refused.
+CellShape shape_of_region(const Mesh& mesh, const std::string& region, const std::vector<int>& cells) {
+  const auto shape_at = [&](int cell) { return mesh.cells.shape(static_cast<std::size_t>(cell)); };
+  const CellShape shape = shape_at(cells.front());
+  const auto other = std::find_if(cells.begin(), cells.end(), [&](int cell) { return shape_at(cell) != shape; });
+  if (other != cells.end())
+    throw ConfigError("mesh",
+                      fmt::format("region '{}' has {} and {}; a region has elements of one kind: put each kind into a "
+                                  "region of its own, or set `split: true` to make all of them tetrahedra",
+                                  region, topology(shape).plural, topology(shape_at(*other)).plural));
+  return shape;
+}
+
+// The element type of a region without a layup. `in_row`: cells_in_rows().
+const ElementType& type_of_region(const Region& region, CellShape shape, const std::vector<int>& cells,
+                                  const std::vector<char>& in_row) {
+  if (shape != CellShape::hex20) {
+    if (region.integration != Integration::automatic)
+      region.origin.fail(
+          fmt::format("integration: only hexahedra of 20 nodes have a choice, but the region has {}; "
+                      "remove it",
+                      topology(shape).plural));
+    return element_type(shape);
+  }
+  const bool has_rows =
+      std::any_of(cells.begin(), cells.end(), [&](int cell) { return in_row[static_cast<std::size_t>(cell)] != 0; });
+  const bool full =
+      region.integration == Integration::full || (region.integration == Integration::automatic && has_rows);
+  return full ? quadratic_hexahedron_14() : quadratic_hexahedron();
+}
+
+// Axes turned by `angle` (rad) about their axis 3.
+AxesField turned(const AxesField& axes, double angle) {
+  if (angle == 0) return axes;
+  const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+  return [axes, turn](const Vec3& point, int cell) -> Mat3 { return axes(point, cell) * turn; };
+}
+
+void note_thickness(const std::string& region, const Region& entry, const Stack& stack, Warnings& notes) {
+  constexpr double kDiffers = 0.01;
+  const double total = total_thickness(entry.layup);
+  if (std::abs(total - stack.height) > kDiffers * stack.height)
+    notes.push_back(
+        fmt::format("{}: the plies of region '{}' are {:.4g} m thick together, its cells {:.4g} m; the plies "
+                    "are scaled to the cells",
+                    entry.origin.where, region, total, stack.height));
+}
+
+// Makes the parts of one region.
+class PartMaker {
+ public:
+  PartMaker(const Scene& scene, Mesh& mesh, ElasticParts& out) : scene_(scene), mesh_(mesh), out_(out) {}
+
+  void add(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
+           std::vector<int> cells, Warnings& notes) {
+    if (!entry.layup.empty()) return add_plies(region, entry, axes, type, notes);
+    const Material& material = material_named(scene_, entry.material);
+    set_density(cells, material.density());
+    out_.parts.push_back(
+        {mesh_.region_names[region], region, &entry, &material, axes, &type, std::move(cells), 1, material.density()});
+  }
+
+ private:
+  void add_plies(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
+                 Warnings& notes) {
+    const std::string& name = mesh_.region_names[region];
+    const Stack stack = make_stack(mesh_, static_cast<int>(region),
+                                   [&](int cell) { return Vec3(axes(centroid(mesh_, cell), cell).col(2)); });
+    note_thickness(name, entry, stack, notes);
+    const std::vector<PlyPart> plies = divide(entry.layup, stack);
+    std::vector<double> density(stack.levels.size(), 0);
+    for (const PlyPart& ply : plies) density[ply.level] += ply.share() * material_of(entry, ply).density();
+    for (std::size_t l = 0; l < stack.levels.size(); ++l) set_density(stack.levels[l].cells, density[l]);
+    for (const PlyPart& ply : plies) {
+      out_.ply_types.push_back(type.ply(ply.begin, ply.end));
+      out_.parts.push_back({name + "." + ply.name, region, &entry, &material_of(entry, ply),
+                            turned(axes, entry.layup[ply.ply].angle), out_.ply_types.back().get(),
+                            stack.levels[ply.level].cells, ply.share(), density[ply.level]});
+    }
+  }
+
+  const Material& material_of(const Region& entry, const PlyPart& ply) const {
+    return material_named(scene_, entry.layup[ply.ply].material);
+  }
+  void set_density(const std::vector<int>& cells, double density) {
+    for (const int cell : cells) out_.density[static_cast<std::size_t>(cell)] = density;
+  }
+
+  const Scene& scene_;
+  Mesh& mesh_;
+  ElasticParts& out_;
+};
+
+// A rank's cells of one part: local indices and, with several ranks, their indices in the whole mesh.
+struct CellsOfRank {
+  std::vector<int> here, numbers;
+};
+
+CellsOfRank cells_of_rank(const ElementMesh& own, const Subdomain* subdomain, const std::vector<int>& cells_of_part) {
+  CellsOfRank cells;
+  if (!subdomain) {
+    cells.here = by_place(own, cells_of_part);
+    return cells;
+  }
+  for (std::size_t e = 0; e < own.cells.size(); ++e)
+    if (std::binary_search(cells_of_part.begin(), cells_of_part.end(), subdomain->cells()[e]))
+      cells.here.push_back(static_cast<int>(e));
+  if (!cells.here.empty()) cells.here = by_place(own, std::move(cells.here));
+  for (const int cell : cells.here) cells.numbers.push_back(subdomain->cells()[static_cast<std::size_t>(cell)]);
+  return cells;
+}
+
+}  // namespace
+
+double stiffness_damping(const Scene& scene, const Region& region) {
+  return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
+}
+
+ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>& regions, Mesh& mesh, Warnings& notes) {
+  ElasticParts out;
+  out.density.resize(mesh.cells.size());
+  const std::vector<char> in_row = cells_in_rows(mesh);
+  auto cells = cells_of_regions(mesh);
+  PartMaker maker(scene, mesh, out);
+  std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const Region& region = *regions[r];
+    if (cells[r].empty()) continue;
+    AxesField& field = fields[&region];
+    if (!field) field = region.axes->field(mesh, notes);
+    const CellShape shape = shape_of_region(mesh, mesh.region_names[r], cells[r]);
+    const ElementType& type = type_of_region(region, shape, cells[r], in_row);
+    maker.add(r, region, field, type, std::move(cells[r]), notes);
+  }
+  return out;
+}
+
+void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own, FemModel::Parts& parts) {
+  const ElementMesh elements(parts.mesh);
+  for (ElasticPart& part : elastic.parts) {
+    const Region& entry = *part.entry;
+    const auto all = static_cast<int>(part.cells.size());
+    CellsOfRank cells = cells_of_rank(own, parts.subdomain.get(), part.cells);
+    const ElementAxes axes = cells.here.empty() ? ElementAxes(Mat3::Identity())
+                                                : element_axes(*entry.axes, part.axes, *part.type, elements,
+                                                               parts.subdomain ? cells.numbers : cells.here);
+    parts.elastic.push_back(part.type->elastic_term(
+        own,
+        {part.name, std::move(cells.here), part.material->stiffness(), axes, stiffness_damping(scene, entry),
+         elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
+         parts.mesh.region_names[part.region], part.share},
+        *parts.pattern));
+    parts.densities.push_back(part.density);
+  }
+  parts.ply_types = std::move(elastic.ply_types);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,43 @@
+// The key `layup` of a region: its plies from bottom to top, stacked along axis 3 of the region's axes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/config/values.h"
+#include "lib/fem/element_type.h"
+#include "lib/mesh/stack.h"
+
+namespace orthodyn {
+
+struct Ply {
+  std::string material;
+  double angle = 0;      // rad, of axis 1 of the material from axis 1 of the region, about axis 3
+  double thickness = 0;  // m
+};
+
+// [material, angle, thickness], such as [beech, 90 deg, 1.5 mm].
+template <>
+struct Value<Ply> {
+  static ValueSchema schema();
+  static Ply read(const Config& c, const Rule& r);
+  static std::string yaml(const Ply& ply);
+};
+
+// The part of a ply in one level of a stack: begin < t < end of the cells' third natural coordinate.
+struct PlyPart {
+  std::size_t ply;
+  std::string name;  // "ply_2", or "ply_2b" for its second part
+  std::size_t level;
+  double begin, end;
+  double share() const { return (end - begin) / 2; }
+};
+
+// Divides plies among the levels of a stack, by level and then from bottom to top. Thicknesses are scaled to the height
+// of the stack.
+std::vector<PlyPart> divide(const std::vector<Ply>& layup, const Stack& stack);
+
+double total_thickness(const std::vector<Ply>& layup);
+
+}  // namespace orthodyn
