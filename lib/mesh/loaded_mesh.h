@@ -38,6 +38,18 @@ struct MeshMaterial {
   std::vector<std::string> without_effect = {};  // keywords that do not affect the motion
 };
 
+// A ply of a layered region.
+struct MeshPly {
+  MeshMaterial material;
+  double degrees = 0;    // from axis 1 of the region to axis 1 of the material, about axis 3
+  double thickness = 0;  // m
+};
+
+struct MeshLayup {
+  std::vector<MeshPly> plies;  // from bottom to top along axis 3
+  std::string axes_file = {};  // file with the axes of each element; "" for the space axes
+};
+
 // Values per element: values[components * element + component].
 struct CellData {
   std::string name;
@@ -57,8 +69,17 @@ struct LoadedMesh {
   Mesh mesh = {};
   Warnings warnings = {};
   std::map<std::string, MeshMaterial> materials = {};  // by region; may be missing for some
+  std::map<std::string, MeshLayup> layups = {};        // of layered regions, by region
   std::vector<CellData> cell_data = {};
 };
+
+// Calls visit(region, material) for the materials of all regions and plies.
+template <class Loaded, class Visit>
+void for_each_material(Loaded& loaded, Visit&& visit) {
+  for (auto& [region, material] : loaded.materials) visit(region, material);
+  for (auto& [region, layup] : loaded.layups)
+    for (auto& ply : layup.plies) visit(region, ply.material);
+}
 
 // The cell data of this name, or null.
 inline const CellData* find_cell_data(const LoadedMesh& loaded, const std::string& name) {

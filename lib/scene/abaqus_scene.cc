@@ -19,10 +19,15 @@ namespace orthodyn {
 namespace {
 
 bool can_be_taken(const LoadedMesh& loaded) {
-  return std::all_of(loaded.mesh.region_names.begin(), loaded.mesh.region_names.end(), [&](const std::string& region) {
-    const auto found = loaded.materials.find(region);
-    return found != loaded.materials.end() && found->second.problem.empty() && found->second.beyond.empty();
+  bool all_can_be_taken = true;
+  for_each_material(loaded, [&](const std::string&, const MeshMaterial& m) {
+    all_can_be_taken = all_can_be_taken && m.problem.empty() && m.beyond.empty();
   });
+  return std::all_of(loaded.mesh.region_names.begin(), loaded.mesh.region_names.end(),
+                     [&](const std::string& region) {
+                       return loaded.materials.contains(region) || loaded.layups.contains(region);
+                     }) &&
+         all_can_be_taken;
 }
 
 // Comments that list the materials; the scene itself reads them from the mesh file.
@@ -32,6 +37,9 @@ std::string materials_in_comments(const LoadedMesh& loaded) {
   for (const auto& [region, m] : loaded.materials)
     text += fmt::format("#   {}: {} {}{}\n", region, m.name, material_yaml(m),
                         m.axes_file.empty() ? "" : ", axes by its orientation");
+  for (const auto& [region, layup] : loaded.layups)
+    text += fmt::format("#   {}: layup {}{}\n", region, layup_yaml(layup),
+                        layup.axes_file.empty() ? "" : ", axes by its orientation");
   return text;
 }
 
@@ -45,19 +53,26 @@ std::string material_entry(const MeshMaterial& m) {
 
 std::string typed_materials(const LoadedMesh& loaded, const std::string& file) {
   std::map<std::string, const MeshMaterial*> by_name;
-  for (const auto& [region, m] : loaded.materials) by_name[m.name] = &m;
+  for_each_material(loaded, [&](const std::string&, const MeshMaterial& m) { by_name[m.name] = &m; });
   std::string text = "materials:\n";
   for (const auto& [name, m] : by_name) text += material_entry(*m);
   text += "\nregions:\n";
+  const auto axes_of = [&](const std::string& axes_file) {
+    return axes_file.empty() ? "" : fmt::format(", axes: {{type: file, file: {}}}", yaml_name(file));
+  };
   for (const std::string& region : loaded.mesh.region_names) {
+    if (const auto layup = loaded.layups.find(region); layup != loaded.layups.end()) {
+      text += fmt::format("  {}: {{layup: {}{}}}\n", yaml_name(region), layup_yaml(layup->second),
+                          axes_of(layup->second.axes_file));
+      continue;
+    }
     const auto m = loaded.materials.find(region);
     if (m == loaded.materials.end()) {
       text += fmt::format("  # {}: {{material: }}, has no section\n", yaml_name(region));
       continue;
     }
-    const std::string axes =
-        m->second.axes_file.empty() ? "" : fmt::format(", axes: {{type: file, file: {}}}", yaml_name(file));
-    text += fmt::format("  {}: {{material: {}{}}}\n", yaml_name(region), yaml_name(m->second.name), axes);
+    text += fmt::format("  {}: {{material: {}{}}}\n", yaml_name(region), yaml_name(m->second.name),
+                        axes_of(m->second.axes_file));
   }
   return text;
 }
@@ -99,13 +114,13 @@ std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMes
     if (!told.contains(what)) names.push_back(place.line > 0 ? fmt::format("{} (line {})", what, place.line) : what);
   }
   std::set<std::string> used;
-  for (const auto& [region, m] : loaded.materials) {
+  for_each_material(loaded, [&](const std::string&, const MeshMaterial& m) {
     used.insert(in_capitals(m.name));
     for (const auto& [where, name] : m.beyond)
       names.push_back(fmt::format("{} of material {} ({})", name, m.name, where));
     if (!m.without_effect.empty())
       names.push_back(fmt::format("of material {}, without effect here: {}", m.name, join(m.without_effect)));
-  }
+  });
   for (const auto& [key, material] : deck.materials)
     if (!used.contains(key))
       names.push_back(fmt::format("*MATERIAL {} (line {}): not used by a section", material.name, material.place.line));

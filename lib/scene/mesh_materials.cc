@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/core/spelling.h"
+#include "lib/scene/abaqus_conditions.h"
 
 namespace orthodyn {
 
@@ -47,11 +48,11 @@ void check_can_be_taken(const MeshMaterial& m) {
 }
 
 void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) {
-  if (loaded.materials.empty())
+  if (loaded.materials.empty() && loaded.layups.empty())
     config.fail("key 'materials' is missing, and the mesh file has none; give materials and regions (" +
                 join(loaded.mesh.region_names) + ")");
   for (const auto& name : loaded.mesh.region_names)
-    if (!loaded.materials.contains(name))
+    if (!loaded.materials.contains(name) && !loaded.layups.contains(name))
       config.fail(
           fmt::format("key 'materials' is missing, and the mesh file has no material for its region '{}'; give "
                       "materials and regions ({})",
@@ -72,6 +73,14 @@ std::string material_yaml(const MeshMaterial& m) {
       number_text(value), number_text(m.g12), number_text(m.g23), number_text(m.g31));
 }
 
+std::string layup_yaml(const MeshLayup& layup) {
+  std::vector<std::string> plies;
+  for (const MeshPly& ply : layup.plies)
+    plies.push_back(fmt::format("[{}, {} deg, {}]", yaml_name(ply.material.name), number_text(ply.degrees),
+                                number_text(ply.thickness)));
+  return "[" + join(plies) + "]";
+}
+
 LoadedMesh load_mesh(const Scene& scene) { return scene.loaded ? *scene.loaded : scene.mesh->load(); }
 
 void fill_mesh_materials(const Config& config, Scene& scene) {
@@ -81,9 +90,9 @@ void fill_mesh_materials(const Config& config, Scene& scene) {
   scene.loaded = mesh;
   check_all_regions_have_one(config, loaded);
   const Config materials = config.fill("materials", "{}");
-  for (const auto& [region, material] : loaded.materials) {
+  for_each_material(std::as_const(loaded), [&](const std::string&, const MeshMaterial& material) {
     check_can_be_taken(material);
-    if (materials.has(material.name)) continue;
+    if (materials.has(material.name)) return;
     if (!material.without_effect.empty())
       loaded.warnings.push_back(fmt::format("{}: material '{}' of the mesh: without effect here: {}", material.where,
                                             material.name, join(material.without_effect)));
@@ -93,13 +102,17 @@ void fill_mesh_materials(const Config& config, Scene& scene) {
     } catch (const ConfigError& e) {
       throw ConfigError(material.where, std::string("material of the mesh: ") + e.what());
     }
-  }
+  });
   if (!scene.regions.empty()) return;
   const Config regions = config.fill("regions", "{}");
   for (const auto& [name, material] : loaded.materials) {
     const Config region = regions.fill(name, region_yaml(material));
     region.fill_text("material", material.name);
     if (!material.axes_file.empty()) fill_axes_by_element(region, material.axes_file);
+  }
+  for (const auto& [name, layup] : loaded.layups) {
+    const Config region = regions.fill(name, fmt::format("{{layup: {}}}", layup_yaml(layup)));
+    if (!layup.axes_file.empty()) fill_axes_by_element(region, layup.axes_file);
   }
   scene.regions = Value<Named<Region>>::read(regions, {});
 }

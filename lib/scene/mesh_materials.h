@@ -14,6 +14,9 @@ void fill_mesh_materials(const Config& config, Scene& scene);
 // A material as scene input on one line: "{type: isotropic, ...}". Precondition: m.problem is empty.
 std::string material_yaml(const MeshMaterial& material);
 
+// The key `layup` of a region.
+std::string layup_yaml(const MeshLayup& layup);
+
 // The scene's mesh. It is read from the file unless it was already read for its materials. Throws ConfigError.
 LoadedMesh load_mesh(const Scene& scene);
 

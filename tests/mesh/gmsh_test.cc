@@ -23,7 +23,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
 }
 
 TEST(Gmsh, ReadsNodesTetsRegionsAndSurfaces) {
-  const auto [mesh, warnings, materials, cell_data] = load(kFile22);
+  const auto [mesh, warnings, materials, layups, cell_data] = load(kFile22);
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
   EXPECT_EQ(tets_of(mesh), (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
@@ -110,7 +110,7 @@ TEST(Gmsh, TetsWithoutAnyPhysicalVolumeFormTheBody) {
   std::string file = replaced(kFile22, "4 4 2 1 1", "4 4 0");
   file = replaced(file, "5 4 2 2 2", "5 4 2 0 2");
   file = replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"", "1\n2 5 \"load\"");
-  const auto [mesh, warnings, materials, cell_data] = load(file);
+  const auto [mesh, warnings, materials, layups, cell_data] = load(file);
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"body"});
   EXPECT_TRUE(warnings.empty());
 }
@@ -118,7 +118,7 @@ TEST(Gmsh, TetsWithoutAnyPhysicalVolumeFormTheBody) {
 TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
   for (const std::string& file :
        {replaced(kFile22, "5 4 2 2 2", "5 4 2 0 2"), replaced(kFile41, "2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 0 0")}) {
-    const auto [mesh, warnings, materials, cell_data] =
+    const auto [mesh, warnings, materials, layups, cell_data] =
         load(replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"", "2\n2 5 \"load\"\n3 1 \"left\""));
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"body", "left"}));
     EXPECT_EQ(mesh.region_of, (std::vector<int>{1, 0}));
@@ -128,7 +128,7 @@ TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
 }
 
 TEST(Gmsh, WarnsOfNamedGroupsWithoutElements) {
-  const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "3\n2 5", "4\n2 8 \"hole\"\n2 5"));
+  const auto [mesh, warnings, materials, layups, cell_data] = load(replaced(kFile22, "3\n2 5", "4\n2 8 \"hole\"\n2 5"));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("physical surface \"hole\" has no faces"), std::string::npos);
 }
@@ -150,7 +150,8 @@ TEST(Gmsh, PhysicalCurvesAndPointsAreNodeSets) {
 }
 
 TEST(Gmsh, WarnsOfNodesThatNoElementUses) {
-  const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "5\n1 0 0 0\n", "6\n77 9 9 9\n1 0 0 0\n"));
+  const auto [mesh, warnings, materials, layups, cell_data] =
+      load(replaced(kFile22, "5\n1 0 0 0\n", "6\n77 9 9 9\n1 0 0 0\n"));
   EXPECT_EQ(mesh.nodes.size(), 5u);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("beam.msh:12: node 77"), std::string::npos) << warnings[0];

@@ -5,6 +5,7 @@
 
 #include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_axes.h"
+#include "lib/mesh/io/abaqus_layups.h"
 #include "lib/mesh/io/abaqus_regions.h"
 #include "lib/mesh/io/abaqus_surfaces.h"
 #include "lib/mesh/io/text_tokens.h"
@@ -20,12 +21,6 @@ void check_has_solids(const AbaqusFile& file) {
           : fmt::format(": {} elements of planes or shells alone are a 2D mesh or a surface; mesh its inside",
                         file.faces.size());
   file.draft.fail({}, "no solid elements (C3D4, C3D8, C3D6, ...){}", flat);
-}
-
-Vec3 centre_of(const FileCell& cell, const AbaqusLookup& lookup) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::int64_t node : cell.corners()) sum += lookup.position(node, cell.place);
-  return sum / static_cast<double>(cell.corners().size());
 }
 
 // Material axes of each cell: those of its section's orientation, or the identity; empty if no section has one.
@@ -62,18 +57,14 @@ void add_axes(const std::vector<Mat3>& axes, LoadedMesh& loaded) {
 }
 
 MeshMaterial material_of(const AbaqusFile& file, const AbaqusSection& section) {
-  const auto found = file.materials.find(section.material);
-  MeshMaterial material = found == file.materials.end()
-                              ? MeshMaterial{.name = section.material,
-                                             .where = file.draft.where(section.elements.place),
-                                             .problem = "the file has no such *MATERIAL"}
-                              : mesh_material(found->second, file.draft);
+  MeshMaterial material = abaqus_material(file, section.material, section.elements.place);
   if (!section.orientation.empty()) material.axes_file = file.draft.files.front();
   return material;
 }
 
 LoadedMesh build_abaqus_mesh(AbaqusFile file, FileCells cells) {
   check_has_solids(file);
+  complete_composites(file);
   AbaqusLookup lookup(file);
   const AbaqusRegions regions = add_abaqus_regions(file, lookup);
   add_abaqus_surfaces(file, lookup);
@@ -89,8 +80,14 @@ LoadedMesh build_abaqus_mesh(AbaqusFile file, FileCells cells) {
   std::map<std::string, MeshMaterial> materials;
   for (const auto& [name, section] : regions.section_of_region)
     if (!section->material.empty()) materials.emplace(name, material_of(file, *section));
+  auto plies = layups_of_regions(file, lookup, regions, axes);
+  std::map<std::string, MeshLayup> layups;
+  for (auto& [name, own] : plies)
+    layups[name] = {std::move(own),
+                    regions.section_of_region.at(name)->orientation.empty() ? "" : file.draft.files.front()};
   LoadedMesh loaded = build_mesh(std::move(file.draft), cells);
   loaded.materials = std::move(materials);
+  loaded.layups = std::move(layups);
   if (!axes.empty()) add_axes(axes, loaded);
   return loaded;
 }

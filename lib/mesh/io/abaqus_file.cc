@@ -180,10 +180,34 @@ class AbaqusReader {
     const auto key = [&](const char* parameter) {
       return keyword.has(parameter) ? scopes_.current().key(keyword.parameter(parameter)) : "";
     };
-    file_.sections.push_back({{.set = scopes_.current().key(lines_.name_of(keyword, "ELSET")), .place = keyword.place},
-                              key("ORIENTATION"),
-                              in_capitals(keyword.parameter("MATERIAL"))});
-    lines_.skip_data();
+    AbaqusSection section{{.set = scopes_.current().key(lines_.name_of(keyword, "ELSET")), .place = keyword.place},
+                          key("ORIENTATION"),
+                          in_capitals(keyword.parameter("MATERIAL"))};
+    if (keyword.has("COMPOSITE")) read_plies(keyword, section);
+    else lines_.skip_data();
+    file_.sections.push_back(std::move(section));
+  }
+
+  // One ply per line: thickness, number of integration points (not used), material, angle or orientation.
+  void read_plies(const AbaqusKeyword& keyword, AbaqusSection& section) {
+    if (keyword.has("MATERIAL"))
+      lines_.fail("*SOLID SECTION with COMPOSITE and MATERIAL; the plies give the materials");
+    section.stack_direction = lines_.choice(keyword, "STACKDIRECTION", {"3", "2", "1"})[0] - '0';
+    while (!lines_.at_keyword()) {
+      const auto fields = lines_.data();
+      if (fields.size() < 3) lines_.fail("a ply with {} fields; expected thickness, points, material", fields.size());
+      AbaqusPly ply{.thickness = lines_.real(0, "the thickness of a ply"),
+                    .material = in_capitals(std::string(fields[2])),
+                    .place = lines_.place()};
+      if (!(ply.thickness > 0)) lines_.fail("a ply of thickness {}; it must be positive", ply.thickness);
+      if (fields.size() > 3 && abaqus_is_name(fields[3]))
+        ply.orientation = scopes_.current().key(std::string(fields[3]));
+      else ply.degrees = lines_.real(3, "the angle of a ply");
+      section.plies.push_back(std::move(ply));
+    }
+    if (section.plies.empty()) lines_.fail("*SOLID SECTION, COMPOSITE without plies");
+    if (keyword.has("SYMMETRIC"))
+      for (std::size_t k = section.plies.size(); k > 0; --k) section.plies.push_back(AbaqusPly(section.plies[k - 1]));
   }
 
   // With several instances, or if the assembly uses the same name, names within an instance get its name as a prefix.

@@ -51,10 +51,21 @@ struct AbaqusPlacement {
   Vec3 operator()(const Vec3& x) const { return R * x + t; }
 };
 
+// A data line of *SOLID SECTION, COMPOSITE. Names are in capitals.
+struct AbaqusPly {
+  double thickness = 0;  // m, or in the proportion to other plies
+  std::string material;
+  double degrees = 0;            // from the section's axes, about axis 3
+  std::string orientation = {};  // replaces `degrees`; "" for none
+  FilePlace place = {};
+};
+
 // *SOLID SECTION: an element set, and names in capitals ("" for none).
 struct AbaqusSection {
   AbaqusMembers elements;
   std::string orientation = {}, material = {};
+  std::vector<AbaqusPly> plies = {};  // of a composite; `material` is then empty
+  int stack_direction = 3;            // 1, 2 or 3: a natural coordinate of the elements
 };
 
 // *ORIENTATION: a coordinate system through the points a, b and c. They are given here, by nodes, or by a distribution.

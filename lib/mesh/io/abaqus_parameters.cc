@@ -18,7 +18,6 @@ struct Parameters {
 
 // By keyword. Source: Abaqus keywords reference, 2016 to 2024.
 const std::map<std::string, Parameters>& parameter_table() {
-  constexpr const char* kPlies = "several plies in one element are not supported; mesh each ply with its own elements";
   constexpr const char* kWhole = "only surfaces that list faces of elements are supported; list the faces";
   constexpr const char* kImport = "results of an earlier analysis are not read; write the part itself";
   static const std::map<std::string, Parameters> all{
@@ -40,9 +39,9 @@ const std::map<std::string, Parameters>& parameter_table() {
          {"REGIONTYPE", kWhole},
          {"TRIM", kWhole}}}},
       {"SOLIDSECTION",
-       {{"ELSET", "MATERIAL", "ORIENTATION"},
+       {{"ELSET", "MATERIAL", "ORIENTATION", "COMPOSITE", "STACKDIRECTION", "SYMMETRIC"},
         {"CONTROLS", "LAYUP", "REFNODE"},
-        {{"COMPOSITE", kPlies}, {"STACKDIRECTION", kPlies}, {"SYMMETRIC", kPlies}, {"ORDER", kPlies}}}},
+        {{"ORDER", "it is for acoustic infinite elements only"}}}},
       {"ORIENTATION",
        {{"NAME", "SYSTEM", "DEFINITION"},
         {},

@@ -85,7 +85,8 @@ void make_names_utf8(LoadedMesh& loaded, const std::string& path) {
   names.convert_keys(loaded.mesh.surfaces);
   names.convert_keys(loaded.mesh.node_sets);
   names.convert_keys(loaded.materials);
-  for (auto& [region, material] : loaded.materials) names.convert(material.name);
+  names.convert_keys(loaded.layups);
+  for_each_material(loaded, [&](const std::string&, MeshMaterial& material) { names.convert(material.name); });
   for (CellData& data : loaded.cell_data) names.convert(data.name);
   if (!names.converted().empty())
     loaded.warnings.push_back(
@@ -128,12 +129,14 @@ void convert_to_si(LoadedMesh& loaded, FileUnits units, const std::string& sourc
   if (units == FileUnits::si) return;
   const UnitFactors factors = factors_of(units);
   scale_mesh(loaded.mesh, factors.length, source);
-  for (auto& [region, m] : loaded.materials) {
+  for_each_material(loaded, [&](const std::string&, MeshMaterial& m) {
     m.density *= factors.density;
     m.young *= factors.stress;
     for (double* modulus : {&m.g12, &m.g23, &m.g31}) *modulus *= factors.stress;
     for (double& entry : m.stiffness) entry *= factors.stress;
-  }
+  });
+  for (auto& [region, layup] : loaded.layups)
+    for (MeshPly& ply : layup.plies) ply.thickness *= factors.length;
 }
 
 }  // namespace orthodyn

@@ -73,6 +73,7 @@ Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {
   Warnings losses;
   if (!format.holds_surfaces) note_loss(losses, "surfaces", names_of(loaded.mesh.surfaces));
   if (!format.holds_materials) note_loss(losses, "the materials of regions", names_of(loaded.materials));
+  note_loss(losses, "the plies of regions", names_of(loaded.layups));
   if (!format.holds_cell_data) {
     std::vector<std::string> arrays;
     for (const CellData& data : loaded.cell_data) {

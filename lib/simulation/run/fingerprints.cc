@@ -58,7 +58,7 @@ std::string mesh_fingerprint(const Mesh& mesh) {
 std::string mesh_fingerprint(const LoadedMesh& loaded) {
   Fingerprint print;
   print.add(mesh_fingerprint(loaded.mesh));
-  for (const auto& [region, m] : loaded.materials) {
+  for_each_material(loaded, [&](const std::string& region, const MeshMaterial& m) {
     print.add(region).add(m.name).add(kind_name(m.kind)).add(m.problem);
     std::vector<double> constants{m.density, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31};
     constants.insert(constants.end(), m.young.begin(), m.young.end());
@@ -66,7 +66,9 @@ std::string mesh_fingerprint(const LoadedMesh& loaded) {
     if (m.kind == MeshMaterial::Kind::anisotropic)
       constants.insert(constants.end(), m.stiffness.begin(), m.stiffness.end());
     print.add(bytes(constants));
-  }
+  });
+  for (const auto& [region, layup] : loaded.layups)
+    for (const MeshPly& ply : layup.plies) print.add(bytes(std::vector<double>{ply.degrees, ply.thickness}));
   for (const auto& data : loaded.cell_data)
     print.add(data.name).add(std::to_string(data.components)).add(bytes(data.values));
   return print.text();
