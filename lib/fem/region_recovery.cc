@@ -14,6 +14,8 @@ namespace {
 // with smaller eigenvalues.
 constexpr double kSmallest = 1e-4;
 constexpr int kPointsPerCoefficient = 4;
+constexpr int kPointsInLayers =
+    3;  // likewise, of points in layers, which lack full rank: the four hexahedra at a corner
 constexpr int kMostRings = 3;
 constexpr double kFlat = 1e-6;  // smallest thickness of a patch relative to its width
 
@@ -91,8 +93,10 @@ Mat3 principal_axes(const Eigen::Matrix3Xd& places) {
 
 struct Fit {
   PatchFit patch;
-  bool has_full_rank;
-  bool is_determined;  // by enough points, too
+  Eigen::Index rank;  // number of coefficients that the points determine
+  bool has_enough_points;
+
+  bool has_full_rank() const { return rank == patch.inverse.rows(); }
 };
 
 Fit fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
@@ -103,13 +107,15 @@ Fit fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
   const auto pairs = symmetric_eigenpairs<Eigen::Dynamic>(Eigen::MatrixXd(A.transpose() * A));
   const double smallest = kSmallest * pairs.values[A.cols() - 1];
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.cols(), A.cols());
+  Eigen::Index rank = 0;
   for (Eigen::Index i = 0; i < A.cols(); ++i)
-    if (pairs.values[i] > smallest)
+    if (pairs.values[i] > smallest) {
       inverse += pairs.vectors.col(i) / pairs.values[i] * pairs.vectors.col(i).transpose();
-  const bool has_full_rank = pairs.values[0] > smallest;
+      ++rank;
+    }
   return {{centre, to_patch, means, std::move(inverse)},
-          has_full_rank,
-          has_full_rank && A.rows() >= kPointsPerCoefficient * (A.cols() + 1)};
+          rank,
+          A.rows() >= (rank < A.cols() ? kPointsInLayers : kPointsPerCoefficient) * (rank + 1)};
 }
 
 // Points in two layers do not tell z from z^2. About their mean z^2 is a constant, so that the fit is linear in z.
@@ -154,9 +160,16 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& 
     if (elements.empty()) continue;
     const Vec3 centre = node_places_.col(row);
     Fit found = fit(places_of(elements), centre, degree_);
-    for (int ring = 0; !found.is_determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
-      found = fit(places_of(elements), centre, degree_);
-    if (!found.has_full_rank) found = fit(places_of(elements), mean_of(places_of(elements)), degree_);
+    for (int ring = 0; ring < kMostRings && !(found.has_full_rank() && found.has_enough_points); ++ring) {
+      std::vector<int> larger = elements;
+      if (!neighbours.grow(row, larger)) break;
+      Fit wider = fit(places_of(larger), centre, degree_);
+      // Neighbours do not help where all points lie in two layers; a wider patch would only be less accurate.
+      if (found.has_enough_points && wider.rank == found.rank) break;
+      elements = std::move(larger);
+      found = std::move(wider);
+    }
+    if (!found.has_full_rank()) found = fit(places_of(elements), mean_of(places_of(elements)), degree_);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
     elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found.patch), {}});

@@ -44,11 +44,7 @@ StressRecovery::Region StressRecovery::make_region(const ElementMesh& mesh, cons
   std::vector<int> own, places;
   for (int k = 0; k < term.size(); ++k) own.push_back(term.cell(k)), places.push_back(k);
   if (!subdomain_) return {RegionRecovery(mesh, own, term.type()), places};
-  const auto name = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), term.definition().mesh_region);
-  const auto region = static_cast<int>(name - mesh_.region_names.begin());
-  std::vector<int> all;
-  for (int cell = 0; cell < static_cast<int>(mesh_.region_of.size()); ++cell)
-    if (mesh_.region_of[static_cast<std::size_t>(cell)] == region) all.push_back(cell);
+  const std::vector<int>& all = term.definition().cells_of_all;
   for (std::size_t k = 0; k < own.size(); ++k)
     places[k] = static_cast<int>(std::lower_bound(all.begin(), all.end(), own[k]) - all.begin());
   return {RegionRecovery(mesh, all, term.type()), places};

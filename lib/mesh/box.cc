@@ -44,6 +44,11 @@ void check(const BoxMesh& box) {
     nodes *= box.cells[a] + 1.0;
     elements *= box.cells[a];
   }
+  if (!box.layers.empty() && box.layers.size() != static_cast<std::size_t>(box.cells[2]))
+    throw ConfigError(fmt::format("{} heights of layers for {} cells along z", box.layers.size(), box.cells[2]));
+  for (const double height : box.layers)
+    if (!(height > 0) || !std::isfinite(height))
+      throw ConfigError(fmt::format("a layer of height {}; it must be positive and finite", height));
   if (!box.origin.allFinite()) throw ConfigError("the origin of the box is not finite");
   constexpr int kMax = std::numeric_limits<int>::max();
   if (nodes > kMax || elements > kMax)
@@ -63,13 +68,26 @@ struct Grid {
   }
 };
 
+// Heights of the planes of nodes, relative to that of the box.
+std::vector<double> heights(const BoxMesh& box) {
+  std::vector<double> out{0};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(box.cells[2]); ++k)
+    out.push_back(box.layers.empty() ? static_cast<double>(k + 1) / box.cells[2] : out.back() + box.layers[k]);
+  const double total = out.back();
+  if (!box.layers.empty())
+    for (double& height : out) height /= total;
+  return out;
+}
+
 std::vector<Vec3> make_nodes(const BoxMesh& box) {
   std::vector<Vec3> nodes;
+  const std::vector<double> z = heights(box);
   const Vec3 cells(box.cells[0], box.cells[1], box.cells[2]);
   for (int k = 0; k <= box.cells[2]; ++k) {
     for (int j = 0; j <= box.cells[1]; ++j) {
       for (int i = 0; i <= box.cells[0]; ++i) {
-        const Vec3 fraction = Vec3(i, j, k).cwiseQuotient(cells);
+        Vec3 fraction = Vec3(i, j, k).cwiseQuotient(cells);
+        fraction[2] = z[static_cast<std::size_t>(k)];
         nodes.push_back(box.origin + box.size.cwiseProduct(fraction));
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "lib/core/types.h"
 #include "lib/mesh/mesh.h"
@@ -19,14 +20,15 @@ struct BoxMesh {
   Vec3 size = Vec3::Ones();              // m
   std::array<int, 3> cells = {1, 1, 1};  // along x, y, z
   Vec3 origin = Vec3::Zero();            // the corner with the lowest coordinates, m
+  std::vector<double> layers = {};       // heights of the cells along z, in proportion; empty: all equal
   Elements elements = Elements::tetrahedra;
   Split split = Split::five;  // of tetrahedra
 };
 
 // One region "body"; surfaces "x0", "x1", "y0", "y1", "z0", "z1" at the lowest and highest x, y, z, oriented outward.
 // Nodes and cells are numbered along x first, then y, then z. Throws ConfigError (without place) if a cell count is
-// below 1, a size is not positive, a number is not finite, or the mesh has more nodes or elements than an int can
-// count.
+// below 1, a size is not positive, a number is not finite, the heights of layers are not as many as cells along z or
+// not positive, or the mesh has more nodes or elements than an int can count.
 Mesh make_box(const BoxMesh& box);
 
 }  // namespace orthodyn

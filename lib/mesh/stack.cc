@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "lib/mesh/element_of_shape.h"
@@ -12,8 +13,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kStackAligned = 0.7;  // smallest cosine between a cell's axis and its direction
-constexpr double kSameHeight = 0.02;   // largest difference of heights in a level
+constexpr double kSameHeight = 0.02;  // largest difference of heights in a level
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -63,7 +63,7 @@ bool turn(Mesh& mesh, int cell, const Vec3& direction) {
   double cosine = 0;
   for (int a = is_wedge ? 2 : 0; a < 3; ++a)
     if (const double c = J.col(a).normalized().dot(direction); std::abs(c) > std::abs(cosine)) axis = a, cosine = c;
-  if (std::abs(cosine) < kStackAligned) return false;
+  if (std::abs(cosine) < kAlongStack) return false;
   const Eigen::Matrix3Xd nodes = E::nodes();
   const Eigen::Matrix3Xd old = is_wedge ? turned_wedge(nodes, cosine < 0) : turned_hexahedron(nodes, axis, cosine < 0);
   const std::span<int> own = mesh.cells.nodes_of(at(cell));
@@ -87,7 +87,7 @@ void turn_along(Mesh& mesh, int cell, const Vec3& direction) {
   const std::string& region = mesh.region_names[at(mesh.region_of[at(cell)])];
   if (!is_layered_shape)
     throw ConfigError("mesh", fmt::format("region '{}' has {}; a layup needs quadratic hexahedra or wedges (a box: "
-                                          "`elements: hexahedra`)",
+                                          "`elements: hexahedra`; a file of linear ones: `order: 2`)",
                                           region, topology(mesh.cells.shape(at(cell))).plural));
   if (!is_turned)
     throw ConfigError("mesh", fmt::format("region '{}': no side of cell {} is along axis 3 of the region's axes, along "
@@ -144,11 +144,12 @@ Stack make_stack(Mesh& mesh, int region, const std::function<Vec3(int cell)>& di
     double bottom = 0, top = 0, lowest = 1, highest = 0;  // `lowest` and `highest`: of the tops
   };
   std::map<std::pair<std::size_t, std::size_t>, Sums> by_place;
-  double heights = 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0;
   for (const auto& column : all) {
     double total = 0, below = 0;
     for (const int cell : column) total += height(mesh, cell);
-    heights += total;
+    lowest = std::min(lowest, total);
+    highest = std::max(highest, total);
     for (std::size_t i = 0; i < column.size(); ++i) {
       Sums& level = by_place[{column.size(), i}];
       const double bottom = below / total;
@@ -161,7 +162,7 @@ Stack make_stack(Mesh& mesh, int region, const std::function<Vec3(int cell)>& di
       level.highest = std::max(level.highest, top);
     }
   }
-  Stack stack{{}, heights / static_cast<double>(all.size())};
+  Stack stack{{}, lowest, highest};
   for (auto& [place, level] : by_place) {
     if (level.highest - level.lowest > kSameHeight)
       refuse(

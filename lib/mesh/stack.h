@@ -8,8 +8,11 @@
 
 namespace orthodyn {
 
-// The cells that have the same place in their columns. Heights are relative to the height of the column: 0 at its
-// bottom, 1 at its top.
+// Smallest cosine between the direction of a stack and the axis of a cell that counts as along it.
+inline constexpr double kAlongStack = 0.7;
+
+// The cells at the same place in columns of the same number of cells. Heights are relative to that of the column: 0 at
+// its bottom, 1 at its top.
 struct StackLevel {
   std::vector<int> cells;  // ascending
   double bottom, top;
@@ -17,7 +20,7 @@ struct StackLevel {
 
 struct Stack {
   std::vector<StackLevel> levels;
-  double height;  // of a column, m: the mean of all columns
+  double lowest, highest;  // heights of columns, m
 };
 
 // The cells of a region in columns along `direction` (a unit vector for each cell). Renumbers their nodes so that the

@@ -158,13 +158,17 @@ AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, co
   const std::string content = read_text_file(path);
   const AbaqusFile deck = read_abaqus_keywords(path, content);
   LoadedMesh loaded = read_abaqus_text(path, content);
+  // Plies need the file's hexahedra; linear ones stay if the mesh becomes quadratic.
+  const bool becomes_quadratic = !loaded.layups.empty() && loaded.mesh.order() == 1;
+  if (becomes_quadratic) loaded = read_abaqus_text(path, content, FileCells::keep);
+  const std::string order = becomes_quadratic ? ", order: 2" : "";
   convert_to_si(loaded, options.units, path);
   const SceneConditions conditions = conditions_of(deck, loaded, options);
   AbaqusScene scene;
   scene.text = options.units == FileUnits::si
-                   ? fmt::format("mesh: {{type: file, file: {}}}   # units: mm_t_s if it is in mm, N and MPa\n\n",
-                                 yaml_name(file))
-                   : fmt::format("mesh: {{type: file, file: {}, units: mm_t_s}}\n\n", yaml_name(file));
+                   ? fmt::format("mesh: {{type: file, file: {}{}}}   # units: mm_t_s if it is in mm, N and MPa\n\n",
+                                 yaml_name(file), order)
+                   : fmt::format("mesh: {{type: file, file: {}{}, units: mm_t_s}}\n\n", yaml_name(file), order);
   scene.text += can_be_taken(loaded) ? materials_in_comments(loaded) : typed_materials(loaded, file);
   scene.text += conditions_text(conditions) + time_text(conditions, options.is_static);
   scene.text += names_in_comments(deck, loaded);

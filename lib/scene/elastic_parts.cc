@@ -65,11 +65,14 @@ AxesField turned(const AxesField& axes, double angle) {
 void note_thickness(const std::string& region, const Region& entry, const Stack& stack, Warnings& notes) {
   constexpr double kDiffers = 0.01;
   const double total = total_thickness(entry.layup);
-  if (std::abs(total - stack.height) > kDiffers * stack.height)
-    notes.push_back(
-        fmt::format("{}: the plies of region '{}' are {:.4g} m thick together, its cells {:.4g} m; the plies "
-                    "are scaled to the cells",
-                    entry.origin.where, region, total, stack.height));
+  if (stack.lowest >= (1 - kDiffers) * total && stack.highest <= (1 + kDiffers) * total) return;
+  notes.push_back(fmt::format(
+      "{}: the plies of region '{}' are {:.4g} m thick together, but along axis 3 of its axes its cells are {}; the "
+      "plies are scaled to the cells. Check the unit of the thicknesses, and that axis 3 goes through the thickness",
+      entry.origin.where, region, total,
+      stack.highest > (1 + kDiffers) * stack.lowest
+          ? fmt::format("{:.4g} to {:.4g} m thick", stack.lowest, stack.highest)
+          : fmt::format("{:.4g} m thick", stack.highest)));
 }
 
 // Makes the parts of one region.
@@ -101,7 +104,8 @@ class PartMaker {
       out_.ply_types.push_back(type.ply(ply.begin, ply.end));
       out_.parts.push_back({name + "." + ply.name, region, &entry, &material_of(entry, ply),
                             turned(axes, entry.layup[ply.ply].angle), out_.ply_types.back().get(),
-                            stack.levels[ply.level].cells, ply.share(), density[ply.level]});
+                            stack.levels[ply.level].cells, ply.share(), density[ply.level],
+                            fmt::format("{}.ply_{}", name, ply.ply + 1)});
     }
   }
 
@@ -174,7 +178,7 @@ void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh&
         own,
         {part.name, std::move(cells.here), part.material->stiffness(), axes, stiffness_damping(scene, entry),
          elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
-         parts.mesh.region_names[part.region], part.share},
+         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share},
         *parts.pattern));
     parts.densities.push_back(part.density);
   }

@@ -21,6 +21,7 @@ struct ElasticPart {
   std::vector<int> cells;  // ascending
   double share = 1;        // of a ply in the thickness of its cells
   double density;          // kg/m^3, the mean over the thickness of its cells
+  std::string ply = {};    // "REGION.ply_2" also for a part of this ply; "" for a region
 };
 
 struct ElasticParts {

@@ -41,14 +41,15 @@ struct FieldOfRegion {
 std::vector<std::string> region_names(const FemModel& model) {
   std::vector<std::string> names{""};
   for (const auto& term : model.parts().elastic)
-    for (const std::string& name : {term->definition().mesh_region, term->region()})
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (const std::string& name : {term->definition().mesh_region, term->definition().ply, term->region()})
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
 }
 
-// Whether a term belongs to the region of this name, or is this ply.
+// Whether a term belongs to the region or ply of this name.
 bool is_of(const ElasticTerm& term, const std::string& region) {
-  return term.region() == region || term.definition().mesh_region == region;
+  const ElasticRegion& own = term.definition();
+  return region == own.name || region == own.mesh_region || region == own.ply;
 }
 
 std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel& model) {
@@ -62,22 +63,29 @@ std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel&
   return std::nullopt;
 }
 
-// Names of the field in each region or ply. A field of the whole body is evaluated region by region, because its value
+struct FieldOfTerm {
+  std::string name;
+  int term;  // as in Extreme
+};
+
+// The field in each region or ply. A field of the whole body is evaluated region by region, because its value
 // at a node of several regions is a mean, which would hide a thin layer.
-std::vector<std::string> names_in_regions(const FieldOfRegion& field, const FemModel& model) {
+std::vector<FieldOfTerm> fields_of_terms(const FieldOfRegion& field, const FemModel& model) {
   const auto& terms = model.parts().elastic;
-  if (terms.size() == 1) return {field.name()};
-  std::vector<std::string> names;
-  for (const auto& term : terms)
-    if (field.region.empty() || is_of(*term, field.region)) names.push_back(term->region() + "." + field.field);
-  return names;
+  if (terms.size() == 1 && field.region.empty()) return {{field.name(), -1}};
+  std::vector<FieldOfTerm> fields;
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    if (field.region.empty() || is_of(*terms[k], field.region))
+      fields.push_back({terms[k]->region() + "." + field.field, terms.size() == 1 ? -1 : static_cast<int>(k)});
+  return fields;
 }
 
 // Updates the extreme. `sign`: 1 for the largest, -1 for the smallest.
-void update_extreme(const std::vector<double>& values, const FieldOfRegion& field, double sign, Extreme& extreme) {
+void update_extreme(const std::vector<double>& values, const FieldOfRegion& field, double sign, int term,
+                    Extreme& extreme) {
   for (std::size_t k = field.component; k < values.size(); k += field.components) {
     if (std::isnan(values[k]) || !(extreme.node < 0 || sign * values[k] > sign * extreme.value)) continue;
-    extreme = {values[k], static_cast<int>(k / field.components)};
+    extreme = {values[k], static_cast<int>(k / field.components), term};
   }
 }
 
@@ -142,9 +150,9 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
   if (!field) return std::nullopt;
   require_strengths(field->field, field->region, model, origin);
   const double sign = which == "largest" ? 1 : -1;
-  return [names = names_in_regions(*field, model), field = *field, sign](const ObservedState& observed) {
+  return [fields = fields_of_terms(*field, model), field = *field, sign](const ObservedState& observed) {
     Extreme extreme{std::numeric_limits<double>::quiet_NaN(), -1};
-    for (const std::string& region_field : names) update_extreme(observed.evaluate(region_field), field, sign, extreme);
+    for (const FieldOfTerm& own : fields) update_extreme(observed.evaluate(own.name), field, sign, own.term, extreme);
     return extreme;
   };
 }

@@ -28,7 +28,7 @@ double total_thickness(const std::vector<Ply>& layup) {
 }
 
 std::vector<PlyPart> divide(const std::vector<Ply>& layup, const Stack& stack) {
-  constexpr double kSnap = 1e-3;  // of a cell's height: boundaries of plies that are nearer to its ends move there
+  constexpr double kRoundOff = 1e-6;  // of a cell's height: boundaries of plies that are nearer to its ends move there
   const double total = total_thickness(layup);
   std::vector<PlyPart> parts;
   std::vector<int> count(layup.size(), 0);
@@ -36,7 +36,7 @@ std::vector<PlyPart> divide(const std::vector<Ply>& layup, const Stack& stack) {
     const StackLevel& level = stack.levels[l];
     const auto place = [&](double height) {
       const double t = 2 * (height - level.bottom) / (level.top - level.bottom) - 1;
-      return std::abs(t) > 1 - 2 * kSnap ? std::copysign(1.0, t) : t;
+      return std::abs(t) > 1 - 2 * kRoundOff ? std::copysign(1.0, t) : t;
     };
     double below = 0;
     for (std::size_t i = 0; i < layup.size(); ++i) {
@@ -44,11 +44,13 @@ std::vector<PlyPart> divide(const std::vector<Ply>& layup, const Stack& stack) {
       below += layup[i].thickness;
       const double end = i + 1 == layup.size() ? 1 : place(below / total);
       if (end <= begin) continue;
-      std::string name = fmt::format("ply_{}", i + 1);
-      if (const int part = count[i]++; part > 0) name += static_cast<char>('a' + std::min(part, 25));
-      parts.push_back({i, std::move(name), l, begin, end});
+      parts.push_back({i, fmt::format("ply_{}", i + 1), l, begin, end});
+      ++count[i];
     }
   }
+  std::vector<int> part(layup.size(), 0);
+  for (PlyPart& p : parts)
+    if (count[p.ply] > 1) p.name += fmt::format("_{}", ++part[p.ply]);
   return parts;
 }
 

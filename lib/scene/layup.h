@@ -28,7 +28,7 @@ struct Value<Ply> {
 // The part of a ply in one level of a stack: begin < t < end of the cells' third natural coordinate.
 struct PlyPart {
   std::size_t ply;
-  std::string name;  // "ply_2", or "ply_2b" for its second part
+  std::string name;  // "ply_2", or "ply_2_1", "ply_2_2", ... if it has several parts
   std::size_t level;
   double begin, end;
   double share() const { return (end - begin) / 2; }

@@ -39,7 +39,8 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
 // Value and node of an extreme; NaN and -1 if no node has a value.
 struct Extreme {
   double value;
-  int node;
+  int node;       // -1 if there is no value
+  int term = -1;  // index of the region or ply among several; -1 if there is only one
 };
 using FindExtreme = std::function<Extreme(const ObservedState&)>;
 

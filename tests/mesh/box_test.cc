@@ -203,5 +203,21 @@ TEST(MakeBoxRefuses, MoreNodesThanAnIntCanCount) {
   EXPECT_NE(refusal({.cells = {max, max, max}}).find("at most 2147483647"), std::string::npos);
 }
 
+TEST(Box, LayersHaveTheirHeights) {
+  const Mesh mesh = make_box({.size = {1, 1, 0.6}, .cells = {1, 1, 3}, .origin = {0, 0, 2}, .layers = {1, 3, 2}});
+  std::set<double> heights;
+  for (const Vec3& x : mesh.nodes) heights.insert(x[2]);
+  const std::vector<double> expected{2, 2.1, 2.4, 2.6};
+  ASSERT_EQ(heights.size(), 4u);
+  std::size_t k = 0;
+  for (const double z : heights) EXPECT_NEAR(z, expected[k++], 1e-15);
+  EXPECT_EQ(*heights.rbegin(), 2.6);  // the top is exact
+}
+
+TEST(Box, LayersAreAsManyAsCellsAlongZ) {
+  EXPECT_THROW(make_box({.cells = {1, 1, 3}, .layers = {1, 2}}), ConfigError);
+  EXPECT_THROW(make_box({.cells = {1, 1, 2}, .layers = {1, -1}}), ConfigError);
+}
+
 }  // namespace
 }  // namespace orthodyn::box_test

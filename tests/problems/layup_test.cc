@@ -11,6 +11,7 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
+#include "lib/scene/quantity.h"
 #include "lib/simulation/error_estimate/finer_model.h"
 #include "tests/fem/built_scene.h"
 
@@ -115,6 +116,20 @@ TEST_P(Layered, HaveTheStressOfEachPlyAtItsNodes) {
   expect_stress(of_all.data() + 6 * top, stress_of_ply(3, e), 1e-11);
 }
 
+// Bent about y with the strain e_xx = z - z_0: ply 1 has the stress c11 e_xx at its bottom, middle and top, which a
+// cell lists at its own bottom, middle and top.
+TEST_P(Layered, HaveTheStressOfABentPlyAtItsHeights) {
+  if (GetParam().across > 1) GTEST_SKIP() << "a ply may have several parts";
+  const BuiltTestScene s = plate();
+  const Vector q = s.dofs([](const Vec3& x) { return Vec3(x[0] * (x[2] - 0.1), 0, -x[0] * x[0] / 2); });
+  const auto stress = s.model().evaluate("body.ply_1.nodal_stress", {0, q, s.zero()});
+  const auto at = [&](double z) { return stress[6 * static_cast<std::size_t>(nearest_node(s.mesh(), {0, 0, z}))]; };
+  const double c11 = stiff().c11;
+  EXPECT_NEAR(at(0), c11 * (0 - 0.1), 1e-11);
+  EXPECT_NEAR(at(0.1), c11 * (0.025 - 0.1), 1e-11);
+  EXPECT_NEAR(at(0.2), c11 * (0.05 - 0.1), 1e-11);
+}
+
 TEST_P(Layered, HaveAForceThatIsTheGradientOfTheirEnergy) {
   Random random(703);
   const BuiltTestScene s = plate("");
@@ -172,13 +187,13 @@ TEST(Plies, AreStackedAlongAxisThreeInCellsOfAnyNumbering) {
   EXPECT_NEAR(turned.potential(turned.dofs(bent)), energy, 1e-13 * energy);
 }
 
-// Elements of half the size have the plies that lie in them.
+// Elements of half the size have the plies that lie in them. In a bent body their heights matter.
 TEST(Plies, StayWhereTheyAreInFinerElements) {
   const BuiltTestScene s(box("[2, 2, 1]") + kMaterials + region(kThree) + "elasticity: {kinematics: linear}\n");
   const FinerModel finer(s.scene, s.model());
   Random random(706);
-  const Mat3 A = random.matrix();
-  const Vector q = s.dofs([&](const Vec3& x) { return Vec3(A * x); });
+  const Mat3 A = random.matrix(), B = random.matrix();
+  const Vector q = s.dofs([&](const Vec3& x) { return Vec3(A * x + x[2] * (B * x)); });
   const Vector still = Vector::Zero(finer.model().num_dofs());
   const double energy = finer.model().evaluate("energy.elastic", {0, finer.lift(q), still})[0];
   EXPECT_NEAR(energy, s.potential(q), 1e-13 * energy);
@@ -305,6 +320,48 @@ time: {{end: 1}}
   EXPECT_NEAR((at(1 + dx, 0.5)[0] - at(1 - dx, 0.5)[0]) / (2 * dx), response[0], 0.01 * response[0]);
 }
 
+// A clamped strip under pressure: its moment is quadratic in x, so that wide patches would smooth it. The stress at the
+// lower side in the middle is 6 (p L^2/24)/t^2.
+TEST(Plies, AndBodiesOfOneCellHaveTheBendingStressOfACurvedMoment) {
+  const std::string strip =
+      "mesh: {type: box, size: [0.3, 0.1, 0.003], cells: [16, 2, 1], elements: hexahedra}\n"
+      "materials: {m: {type: isotropic, density: 1, young: 1e9, nu: 0}}\n"
+      "elasticity: {kinematics: linear}\nclamps: [{surface: x0}, {surface: x1}]\n"
+      "loads: [{surface: z1, traction: [0, 0, -300]}]\ntime: {end: 1}\n";
+  const double expected = 6 * (300 * 0.09 / 24) / (0.003 * 0.003);
+  for (const std::string region : {"", "regions: {body: {layup: [[m, 0, 1 mm], [m, 0, 2 mm]]}}\n"}) {
+    const BuiltTestScene s(strip + region);
+    const auto stress = s.model().evaluate("nodal_stress", {0, linear_static(s), s.zero()});
+    const auto middle = static_cast<std::size_t>(nearest_node(s.mesh(), {0.15, 0.05, 0}));
+    EXPECT_NEAR(stress[6 * middle], expected, 0.04 * expected) << region;
+  }
+}
+
+TEST(Plies, HaveExtremesOfAllTheirParts) {
+  const BuiltTestScene s(box("[2, 2, 2]") + kMaterials + region(kThree) + "elasticity: {kinematics: linear}\n");
+  const Vector q = s.dofs([](const Vec3& x) { return Vec3(x[0] * (x[2] - 0.1), 0, -x[0] * x[0] / 2); });
+  const State state{0, q, s.zero()};
+  ASSERT_EQ(s.model().parts().elastic.size(), 4u);
+  EXPECT_EQ(s.model().parts().elastic[1]->region(), "body.ply_2_1");
+  const auto largest = [&](const std::string& name) {
+    const auto find = find_extreme(name + ".nodal_stress.xx.largest", s.model(), {});
+    return find ? (*find)(ObservedState(s.model(), state)).value : std::nan("");
+  };
+  const double of_soft = isotropic_stiffness(0.3, 0.2).stress<double>(Mat3(Vec3(0.05, 0, 0).asDiagonal()))(0, 0);
+  EXPECT_NEAR(largest("body.ply_2"), of_soft, 1e-11);
+  EXPECT_NEAR(largest("body.ply_2_1"), 0, 1e-11);
+  EXPECT_NEAR(largest("body.ply_2_2"), of_soft, 1e-11);
+  EXPECT_GT(largest("body"), of_soft);
+}
+
+TEST(Plies, MayBeOneOnly) {
+  const BuiltTestScene s(box("[2, 2, 1]") + kMaterials + region("[[stiff, 0, 0.2]]"));
+  const auto find = find_extreme("body.tsai_wu.largest", s.model(), {});
+  ASSERT_TRUE(find.has_value());
+  const State state{0, s.zero(), s.zero()};
+  EXPECT_NEAR((*find)(ObservedState(s.model(), state)).value, 0, 1e-12);
+}
+
 TEST(Plies, AreRefusedWithTheReason) {
   const auto message = [](const std::string& scene) -> std::string {
     try {
@@ -333,7 +390,10 @@ TEST(Plies, AreRefusedWithTheReason) {
 TEST(Plies, OfAnotherThicknessThanTheCellsAreScaledWithAWarning) {
   const BuiltTestScene s(box("[2, 2, 1]") + kMaterials + region("[[stiff, 0, 1 mm], [soft, 0, 3 mm]]"));
   ASSERT_FALSE(s.built.warnings.empty());
-  EXPECT_NE(s.built.warnings[0].find("are 0.004 m thick together, its cells 0.2 m"), std::string::npos);
+  EXPECT_NE(
+      s.built.warnings[0].find("are 0.004 m thick together, but along axis 3 of its axes its cells are 0.2 m thick"),
+      std::string::npos)
+      << s.built.warnings[0];
   EXPECT_EQ(s.model().parts().elastic[0]->definition().share, 0.25);
 }
 

@@ -56,6 +56,13 @@ regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], 
 clamps: [{box: {min: [-1, -1, -1], max: [0.45, 1, 1]}}]
 gravity: [0, 0, -9.81]
 )"},
+          // Plies that two cells share.
+          {"layers", "mesh: {type: box, size: [1, 0.2, 0.04], cells: [6, 2, 2], elements: hexahedra}\n" + head + R"(
+regions: {body: {layup: [[wood, 0, 0.5 cm], [wood, 60 deg, 3 cm], [wood, 0, 0.5 cm]]}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+damping: {stiffness: 2.0e-3}
+)"},
           // Five elements, so that some of seven ranks have none.
           {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
 clamps: [{surface: x0}]

@@ -29,11 +29,20 @@ def magnitude(v):
     return np.sqrt((weight * v ** 2).sum(axis=1))
 
 
+def without_region(field):
+    """The field of REGION.FIELD; names of regions may contain dots."""
+    return field.rpartition(".")[2]
+
+
+def plain_name(field):
+    return without_region(field).removeprefix(AT_NODES)
+
+
 def component_names(field, count):
     if count == 6:
-        field = field.removeprefix(AT_NODES)
+        field = plain_name(field)
         return MATERIAL if field in ("stress_material", "strain") else SPACE
-    if field.startswith("principal_"):
+    if without_region(field).startswith("principal_"):
         return "1", "2", "3"
     return {1: (), 3: ("x", "y", "z")}.get(count, tuple(str(i) for i in range(count)))
 
@@ -48,12 +57,12 @@ class Quantity:
 
     @property
     def unit(self):
-        return UNITS.get(self.field.removeprefix(AT_NODES), "")
+        return UNITS.get(plain_name(self.field), "")
 
     @property
     def peaked(self):
         """Whether a few values may far exceed the others, as stresses do at corners and clamped edges."""
-        return not self.on_nodes or self.field.startswith(AT_NODES) or self.field in FIGURES
+        return not self.on_nodes or without_region(self.field).startswith(AT_NODES) or without_region(self.field) in FIGURES
 
     @property
     def categorical(self):
@@ -100,13 +109,13 @@ def find_quantity(text, frame):
     fields = {**frame.cell_fields, **frame.node_fields}
     field, part = _split(text or default_quantity(frame), fields)
     on_nodes, count = field in frame.node_fields, fields[field].shape[1]
-    plain = field.removeprefix(AT_NODES)
+    plain = plain_name(field)
     title = TITLES.get(plain, plain.replace("_", " "))
     if count == 1 and not part:
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)
-    stress = count == 6 and field.removeprefix(AT_NODES).startswith("stress")
-    principal = field.startswith("principal_")
+    stress = count == 6 and plain.startswith("stress")
+    principal = plain.startswith("principal_")
     derived = ["magnitude"] * (count > 1 and not principal) + ["von_mises"] * stress
     part = part or (components[0] if principal else derived[-1])
     if part in derived:

@@ -36,10 +36,13 @@ std::vector<int> parse_orders(const std::string& text) {
   throw ConfigError(fmt::format("--order: expected 1, 2 or 1,2, found '{}'", text));
 }
 
-// Linear and quadratic tetrahedra are compared; hexahedra and wedges are quadratic only.
+// Linear and quadratic tetrahedra are compared; hexahedra and wedges are quadratic only. Reading the scene fills in the
+// elements of a box.
 std::vector<int> orders_of(const ConvergeArguments& arguments) {
   if (!arguments.orders.empty()) return parse_orders(arguments.orders);
-  const Config mesh = read_scene_file(arguments.file, {.set = arguments.set}).at("mesh");
+  const Config config = read_scene_file(arguments.file, {.set = arguments.set});
+  read_scene(config);
+  const Config mesh = config.at("mesh");
   return mesh.has("elements") && mesh.at("elements").text() != "tetrahedra" ? std::vector{2} : std::vector{1, 2};
 }
 

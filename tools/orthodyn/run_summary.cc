@@ -89,8 +89,8 @@ void print_extremes(const RunResult& result, bool is_static) {
   for (const auto& e : result.extremes) {
     if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
     else
-      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}, of {}\n", e.quantity, e.value,
-                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"),
+      fmt::print("  {}: {:.4g}{} {}at {} m, {} {:.4g}{}, of {}\n", e.quantity, e.value,
+                 e.unit.empty() ? "" : " " + e.unit, in_region(e), three(e.place, "{:.4g}"),
                  is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s", counted(e.states, "state"));
   }
 }

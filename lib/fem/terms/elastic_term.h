@@ -22,8 +22,8 @@
 
 namespace orthodyn {
 
-// A region of a mesh with its elastic constants and axes, or a ply of a layered region; the input of
-// ElementType::elastic_term(). The plies of a region have the same cells.
+// A region of a mesh with its elastic constants and axes, or the part of a ply in one level of cells
+// (lib/mesh/stack.h); the input of ElementType::elastic_term().
 struct ElasticRegion {
   std::string name;
   std::vector<int> cells;  // indices in the mesh; may be empty on a rank
@@ -35,6 +35,8 @@ struct ElasticRegion {
   std::vector<int> numbers = {};          // indices of `cells` in the whole mesh; empty with one rank
   int elements = 0;                       // number of the region's elements on all ranks
   std::string mesh_region = {};           // name of the region in the mesh; `name` except for a ply
+  std::string ply = {};                   // name of the whole ply, of which this may be a part; "" for a region
+  std::vector<int> cells_of_all = {};     // cells of all ranks in the whole mesh, ascending; empty with one rank
   double share = 1;                       // of a ply in the thickness of its cells
 };
 

@@ -6,11 +6,11 @@
 
 #include "lib/mesh/io/abaqus_axes.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/stack.h"
 
 namespace orthodyn {
 namespace {
 
-constexpr double kAligned = 0.7;    // smallest cosine between stack direction and axis 3
 constexpr double kSameAxis = 1e-6;  // largest difference of two unit vectors that count as equal
 
 // The corners at the beginning and the end of a cell along the stack direction 1, 2 or 3; empty if it has none.
@@ -76,13 +76,13 @@ class LayupMaker {
     for (const std::size_t c : cells) {
       const FileCell& cell = file_.draft.cells[c];
       const double cosine = stack_direction(file_, lookup_, section, cell).dot(axes_of(c).col(2));
-      if (std::abs(cosine) < kAligned || (up != 0 && (cosine > 0) != (up > 0)))
+      if (std::abs(cosine) < kAlongStack || (up != 0 && (cosine > 0) != (up > 0)))
         file_.draft.fail(section.elements.place,
                          "*SOLID SECTION, COMPOSITE: the plies of element {} are {}; number its nodes, or set the "
                          "*ORIENTATION or STACK DIRECTION, so that stack direction and axis 3 agree",
                          cell.tag,
-                         std::abs(cosine) < kAligned ? "not stacked along axis 3 of the section's orientation"
-                                                     : "stacked in the opposite sense of those of other elements");
+                         std::abs(cosine) < kAlongStack ? "not stacked along axis 3 of the section's orientation"
+                                                        : "stacked in the opposite sense of those of other elements");
       up = cosine > 0 ? 1 : -1;
     }
     return up < 0;

@@ -1,8 +1,11 @@
 // The mesh source `box`.
 #include "lib/mesh/box.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 
 #include "lib/mesh/mesh_source.h"
@@ -50,6 +53,10 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
+            .key("layers", &BoxMesh::layers,
+                 "Heights of the cells along z from bottom to top, in proportion to each other: one per cell along z. "
+                 "Default: all equal.",
+                 {.range = kPositive})
             .key("elements", &BoxSource::elements_,
                  "tetrahedra; hexahedra: one element of 20 nodes per cell, for plates and other thin bodies; wedges: "
                  "two of 15 nodes per cell, with triangles in planes of constant z. Default: hexahedra for cells more "
@@ -62,6 +69,9 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
+              if (!box.layers.empty() && box.layers.size() != static_cast<std::size_t>(box.cells[2]))
+                config.at("layers").fail(
+                    fmt::format("has {} heights, but there are {} cells along z", box.layers.size(), box.cells[2]));
               const Elements elements = box.chosen_elements();
               if (!box.elements_) config.fill("elements", Value<Elements>::yaml(elements));
               if (elements != Elements::tetrahedra) {
@@ -97,10 +107,13 @@ class BoxSource : public MeshSource, public BoxMesh {
     return elements_.value_or(is_plate ? Elements::hexahedra : Elements::tetrahedra);
   }
   Split chosen_split() const { return split_.value_or(order == 2 && flatness() > kFlat ? Split::six : Split::five); }
-  // Smaller width of the cells over their thickness.
+  // Smaller width of the cells over their thickness, of the thinnest cells.
   double flatness() const {
     std::array<double, 3> edges;
     for (std::size_t i = 0; i < 3; ++i) edges[i] = size[static_cast<Eigen::Index>(i)] / cells[i];
+    if (!layers.empty())
+      edges[2] = size[2] * *std::min_element(layers.begin(), layers.end()) /
+                 std::accumulate(layers.begin(), layers.end(), 0.0);
     std::sort(edges.begin(), edges.end());
     return edges[1] / edges[0];
   }

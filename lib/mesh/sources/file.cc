@@ -51,6 +51,8 @@ struct FileOptions {
 
   LoadedMesh apply_options(LoadedMesh loaded) const {
     scale_mesh(loaded.mesh, scale, file.path);
+    for (auto& [region, layup] : loaded.layups)
+      for (MeshPly& ply : layup.plies) ply.thickness *= scale;
     for (const std::string& name : set_order(loaded.mesh, order))
       loaded.warnings.push_back(
           fmt::format("{}: node set \"{}\" has mid-edge nodes only and is empty with `order: 1`; leave out `order`, or "

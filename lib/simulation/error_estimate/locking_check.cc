@@ -99,10 +99,11 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
     if (by_finer_elements && volumetric) continue;
     if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
     return fmt::format(
-        "region '{}' is {:.0f} times as stiff {} as in its softest shear: all {} tetrahedra are then too stiff "
+        "region '{}' is {:.0f} times as stiff {} as in its softest shear: all {} are then too stiff "
         "(locking), and the true error may be {} the estimate. {}, or check with orthodyn converge",
         term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
-        order == 1 ? "linear" : "quadratic", by_finer_elements ? "two or three times" : "many times",
+        order == 1 ? "linear tetrahedra" : topology(term->type().shape()).plural,
+        by_finer_elements ? "two or three times" : "many times",
         order == 1   ? "Use mesh.order: 2"
         : volumetric ? "Use a smaller nu if this one is not intended, finer cells"
                      : "Use finer cells");

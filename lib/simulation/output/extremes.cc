@@ -21,10 +21,14 @@ std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& 
   for (const auto& e : extremes)
     if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_failure_criterion(e.quantity))
       all.push_back(fmt::format(
-          "{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, {} {:.4g}{}",
-          e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1], e.place[2],
+          "{} reaches {:.3g}: the strength is exceeded from 1 on, {}at ({:.4g}, {:.4g}, {:.4g}) m, {} {:.4g}{}",
+          e.quantity.substr(0, e.quantity.rfind('.')), e.value, in_region(e), e.place[0], e.place[1], e.place[2],
           is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
   return all;
+}
+
+std::string in_region(const RecordedExtreme& extreme) {
+  return extreme.region.empty() ? "" : fmt::format("in {}, ", extreme.region);
 }
 
 ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model,
@@ -52,23 +56,32 @@ void ExtremeRecorder::observe(const ObservedState& observed) {
     found.value = now.value;
     found.time = observed.t();
     found.node = now.node;
-    found.place = model_.parts().mesh.nodes[static_cast<std::size_t>(now.node)];
+    found.term = now.term;
+    locate(found);
   }
+}
+
+void ExtremeRecorder::locate(RecordedExtreme& found) const {
+  const FemModel::Parts& parts = model_.parts();
+  found.place = parts.mesh.nodes.at(static_cast<std::size_t>(found.node));
+  found.region = found.term < 0 ? "" : parts.elastic.at(static_cast<std::size_t>(found.term))->region();
 }
 
 void ExtremeRecorder::save(Archive& archive) {
   for (const auto& f : found_)
-    archive.put(f.quantity, {f.value, f.time, static_cast<double>(f.node), static_cast<double>(f.states)});
+    archive.put(f.quantity, {f.value, f.time, static_cast<double>(f.node), static_cast<double>(f.term),
+                             static_cast<double>(f.states)});
 }
 
 void ExtremeRecorder::restore(const Archive& archive) {
   for (auto& f : found_) {
-    const auto& saved = archive.numbers(f.quantity, 4);
+    const auto& saved = archive.numbers(f.quantity, 5);
     f.value = saved[0];
     f.time = saved[1];
     f.node = static_cast<int>(saved[2]);
-    f.states = static_cast<long>(saved[3]);
-    if (f.node >= 0) f.place = model_.parts().mesh.nodes.at(static_cast<std::size_t>(f.node));
+    f.term = static_cast<int>(saved[3]);
+    f.states = static_cast<long>(saved[4]);
+    if (f.node >= 0) locate(f);
   }
 }
 

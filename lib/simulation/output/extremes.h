@@ -16,8 +16,13 @@ struct RecordedExtreme {
   double time = 0;            // s; load factor in a static analysis
   int node = -1;              // mesh node; -1 if there is no value
   Vec3 place = Vec3::Zero();  // rest position of the node, m
+  int term = -1;              // as in Extreme
+  std::string region = {};    // the region or ply; "" if there is only one
   long states = 0;            // number of states evaluated
 };
+
+// "in body.ply_2, ", or "" if there is only one region.
+std::string in_region(const RecordedExtreme& extreme);
 
 // True for a failure criterion (max_stress, tsai_wu, hashin) of a node, a region or the body. Failure occurs at 1.
 bool is_failure_criterion(const std::string& quantity);
@@ -40,6 +45,7 @@ class ExtremeRecorder : public Observer {
 
  private:
   void observe(const ObservedState& observed);
+  void locate(RecordedExtreme& found) const;  // sets place and region from node and term
 
   const FemModel& model_;
   std::vector<FindExtreme> find_;

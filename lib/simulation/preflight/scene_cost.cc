@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include "lib/analysis/static_response.h"
@@ -132,16 +133,26 @@ class SavingsFinder {
     if (parts().elastic.size() < 2) return;
     const Vector still = Vector::Zero(model_.num_dofs());
     const NodalExpansion nodal(parts(), setup_.built.initial.t, small_response(), still);
-    std::vector<double> energies;
+    struct Region {
+      double energy = 0, share_of_force = 0;
+      int elements = 0;
+    };
+    std::map<std::string, Region> regions;  // with all their plies
     double all = 0;
-    for (const auto& term : parts().elastic) all += energies.emplace_back(term->energy(nodal.state()));
-    for (std::size_t k = 0; k < energies.size(); ++k)
-      if (energies[k] < threshold() * all)
+    for (const auto& term : parts().elastic) {
+      Region& region = regions[term->definition().mesh_region];
+      const double energy = term->energy(nodal.state());
+      region.energy += energy;
+      all += energy;
+      region.share_of_force += share_of_force(term->name());
+      region.elements = std::max(region.elements, term->size());
+    }
+    for (const auto& [name, region] : regions)
+      if (region.energy < threshold() * all)
         found_.push_back(
             fmt::format("region {}: it has {:.1e} of the elastic energy and moves as a rigid body: a coarser mesh "
                         "would do ({} elements, {:.0f} % of a force)",
-                        parts().elastic[k]->region(), energies[k] / all, parts().elastic[k]->size(),
-                        100 * share_of_force(parts().elastic[k]->name())));
+                        name, region.energy / all, region.elements, 100 * region.share_of_force));
   }
 
   void check_mesh() {

@@ -169,6 +169,7 @@ Json to_json(const RecordedExtreme& extreme) {
           {"time", extreme.time},
           {"node", extreme.node},
           {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}},
+          {"region", extreme.region.empty() ? Json(nullptr) : Json(extreme.region)},
           {"states", extreme.states}};
 }
 

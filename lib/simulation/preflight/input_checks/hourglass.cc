@@ -3,6 +3,8 @@
 // elements across, neighbours prevent these shapes.
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "lib/mesh/cell_rows.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
@@ -30,18 +32,20 @@ void check_hourglass(const CheckContext& context, Warnings& out) {
   const FemModel::Parts& parts = context.built.model->parts();
   if (parts.subdomain) return;
   const std::vector<char> in_row = cells_in_rows(parts.mesh);
+  std::set<std::string> told;
   for (const auto& term : parts.elastic) {
-    if (&term->type() != &quadratic_hexahedron()) continue;
+    const std::string& region = term->definition().mesh_region;
+    if (term->type().shape() != CellShape::hex20 || term->num_points() != quadratic_hexahedron().num_points()) continue;
     const std::vector<int>& cells = term->definition().cells;
     const auto count = std::count_if(cells.begin(), cells.end(), [&](int cell) {
       const auto c = static_cast<std::size_t>(cell);
       return in_row[c] && is_loose(parts, c);
     });
-    if (count == 0) continue;
+    if (count == 0 || !told.insert(region).second) continue;
     warn(out, context.config.at("regions").where(),
          "region '{}': {} without neighbours in two directions: reduced integration leaves shapes without stiffness "
          "(hourglass), which no neighbour prevents. Remove `integration: reduced`, or use two elements across",
-         term->region(), count == 1 ? "1 hexahedron is" : fmt::format("{} hexahedra are", count));
+         region, count == 1 ? "1 hexahedron is" : fmt::format("{} hexahedra are", count));
   }
 }
 
