@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "lib/core/errors.h"
 #include "lib/mesh/element_of_shape.h"
 
 namespace orthodyn {

@@ -61,7 +61,6 @@ gravity: [0, 0, -9.81]
 regions: {body: {layup: [[wood, 0, 0.5 cm], [wood, 60 deg, 3 cm], [wood, 0, 0.5 cm]]}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, force: [0, 0, -1]}]
-damping: {stiffness: 2.0e-3}
 )"},
           // Five elements, so that some of seven ranks have none.
           {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
