@@ -34,7 +34,11 @@ class ElementBatches {
 
   int size() const { return size_; }
   int num_batches() const { return static_cast<int>(nodes_.size()); }
-  int num_points() const { return num_points_; }
+  // A constant for elements that have no other points than their own.
+  int num_points() const {
+    if constexpr (HasIntegrationRules<E>) return num_points_;
+    else return E::kPoints;
+  }
   // Number of elements in a batch, without padding.
   int lanes(int batch) const { return std::min(kLanes, size_ - batch * kLanes); }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(nodes_[0]) + points_.capacity() * sizeof(Point); }
@@ -77,7 +81,7 @@ class ElementBatches {
   static NodeDifferences<kNodes> differences_of(const Nodes& nodes, const NodalVector& u);
   static ElementPoint<kNodes> point_at_rest(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q,
                                             const IntegrationRule* rule);
-  std::size_t index(int batch, int point) const { return static_cast<std::size_t>(batch * num_points_ + point); }
+  std::size_t index(int batch, int point) const { return static_cast<std::size_t>(batch * num_points() + point); }
   const Point& at_point(int batch, int point) const { return points_[index(batch, point)]; }
   static std::size_t lane(int k) { return static_cast<std::size_t>(k % kLanes); }
 
