@@ -47,8 +47,7 @@ struct QuadraturePoint {
   double weight;
 };
 
-// Integration points of an element's stiffness that differ from those of the element's struct. They cover a part of the
-// cell: all of it, or a ply.
+// Replaces the integration points of an element's struct. The points cover the whole cell or one ply of it.
 struct IntegrationRule {
   std::vector<QuadraturePoint> points;
   Eigen::Matrix3Xd nodes;    // natural coordinates in the cell of the part's nodes, numbered as the cell's

@@ -68,7 +68,7 @@ struct Grid {
   }
 };
 
-// Heights of the planes of nodes, relative to that of the box.
+// The z coordinate of each plane of nodes above the bottom of the box, divided by the height of the box.
 std::vector<double> heights(const BoxMesh& box) {
   std::vector<double> out{0};
   for (std::size_t k = 0; k < static_cast<std::size_t>(box.cells[2]); ++k)

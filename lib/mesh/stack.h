@@ -11,8 +11,8 @@ namespace orthodyn {
 // Smallest cosine between the direction of a stack and the axis of a cell that counts as along it.
 inline constexpr double kAlongStack = 0.7;
 
-// The cells at the same place in columns of the same number of cells. Heights are relative to that of the column: 0 at
-// its bottom, 1 at its top.
+// One level: the i-th cells from the bottom of all columns that have n cells. Heights are fractions of the column's
+// height, from 0 at its bottom to 1 at its top.
 struct StackLevel {
   std::vector<int> cells;  // ascending
   double bottom, top;

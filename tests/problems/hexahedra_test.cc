@@ -78,7 +78,7 @@ TEST_P(Solid, PassesThePatchTestOfALinearDisplacement) {
   for (std::size_t k = 6; k < stress.size(); ++k) EXPECT_NEAR(stress[k], stress[k % 6], 1e-12);
 }
 
-// The volumes of the cells add up to that of the box, 1 m^3, because the mesh has no gaps.
+// The mesh has no gaps: its cells together have the volume of the box, 1 m^3.
 TEST_P(Solid, FillsTheBoxAndHasItsMass) {
   const Mesh mesh = distorted(GetParam());
   double volume = 0;

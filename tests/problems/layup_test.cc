@@ -82,7 +82,7 @@ Mat3 stress_of_ply(int ply, const Mat3& e) {
   return Q * stiff().stress<double>(Mat3(Q.transpose() * e * Q)) * Q.transpose();
 }
 
-// A uniform strain stores the energy of each ply's volume, whatever the number of cells across.
+// In a uniform strain, each ply stores its energy density times its volume. The number of cells across does not matter.
 TEST_P(Layered, StoreTheEnergyOfTheirPliesInAUniformStrain) {
   Random random(701);
   const Mat3 A = random.matrix(), e = (A + A.transpose()) / 2;

@@ -94,7 +94,7 @@ TEST(Composites, AreRefusedWithTheReason) {
          "has no stack direction 3");
 }
 
-// A scene without materials and regions has those of the file.
+// A scene without `materials` and `regions` takes the materials and plies of the file.
 TEST(Composites, BecomeTheRegionsOfAScene) {
   const TemporaryFolder folder;
   folder.write("panel.inp", deck(kPlies));

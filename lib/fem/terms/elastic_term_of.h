@@ -19,8 +19,8 @@ namespace orthodyn {
 template <Element E, class Law>
 class ElasticTermOf final : public ElasticTerm {
  public:
-  // The type and the pattern must outlive the term, the mesh need not. `rule`: the integration points of the type, null
-  // for those of E.
+  // The type and the pattern must outlive the term, the mesh need not. `rule`: the type's integration points; null if
+  // the type has the points of E.
   ElasticTermOf(const ElementType& type, const ElementMesh& mesh, ElasticRegion region, const Law& law,
                 const BlockPattern& pattern, const IntegrationRule* rule)
       : type_(type),

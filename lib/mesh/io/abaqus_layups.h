@@ -12,8 +12,8 @@
 
 namespace orthodyn {
 
-// Gives composite sections without an *ORIENTATION that of their first ply, as CalculiX writes them. Call it before
-// regions and axes are computed.
+// A composite section without an *ORIENTATION, as CalculiX writes it, gets the orientation of its first ply. Call this
+// function before regions and axes are computed.
 void complete_composites(AbaqusFile& file);
 
 // The layups of composite regions, from bottom to top along axis 3 of their axes. `axes`: of each cell; empty for the
