@@ -52,6 +52,9 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::kLumpedShares } -> std::convertible_to<std::array<double, E::kNodes>>;
   // The largest ratio of lumped to consistent kinetic energy.
   { E::kLumpedToConsistent } -> std::convertible_to<double>;
+  // Number of polynomials of the pressure in an element of the mixed formulation (lib/fem/terms/mixed_elastic_term.h):
+  // 1 constant, 4 linear, 0 if the element has no such formulation.
+  { E::kPressures } -> std::convertible_to<int>;
   // Point `point` in [0, kPoints), from the node differences at rest and the material axes.
   { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
   { E::place_of(point, X) } -> std::same_as<Vec3>;  // m, at rest

@@ -67,6 +67,7 @@ struct Hex20 : Isoparametric<ReferenceHex20> {
       kMiddle, kMiddle, kMiddle, kMiddle, kMiddle, kMiddle, kMiddle, kMiddle, kMiddle, kMiddle};
   // 13.48, of a parallelepiped: the larger root r of 961 r^2 - 16740 r + 51030 = 0.
   static constexpr double kLumpedToConsistent = 27 * (10 + 5.477225575051661) / 31;  // sqrt(30)
+  static constexpr int kPressures = 4;
 };
 
 static_assert(Element<Hex20>);

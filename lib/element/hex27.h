@@ -48,6 +48,7 @@ struct Hex27 : Isoparametric<ReferenceHex27> {
       kCorner, kCorner, kCorner, kCorner, kCorner, kCorner, kCorner, kCorner, kEdge, kEdge, kEdge, kEdge, kEdge,  kEdge,
       kEdge,   kEdge,   kEdge,   kEdge,   kEdge,   kEdge,   kSide,   kSide,   kSide, kSide, kSide, kSide, kCentre};
   static constexpr double kLumpedToConsistent = 125.0 / 8;  // of a parallelepiped: 5/2 in each direction
+  static constexpr int kPressures = 4;
 };
 
 static_assert(Element<Hex27>);

@@ -25,6 +25,7 @@ struct Tet10 {
   static constexpr std::array<double, kNodes> kLumpedShares{kCorner, kCorner, kCorner, kCorner, kMiddle,
                                                             kMiddle, kMiddle, kMiddle, kMiddle, kMiddle};
   static constexpr double kLumpedToConsistent = 70.0 / 9;  // with straight edges
+  static constexpr int kPressures = 1;
 
   using Barycentric = Eigen::Vector4d;
   using Values = Eigen::Matrix<double, kNodes, 1>;

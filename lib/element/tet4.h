@@ -10,6 +10,7 @@ struct Tet4 {
   static constexpr int kNodes = 4, kPoints = 1, kDegree = 1;
   static constexpr std::array<double, kNodes> kLumpedShares{0.25, 0.25, 0.25, 0.25};
   static constexpr double kLumpedToConsistent = 5;  // m/4 over the smallest eigenvalue of the consistent mass, m/20
+  static constexpr int kPressures = 0;
 
   static ElementPoint<kNodes> point(int, const NodeDifferences<kNodes>& edges, const Mat3& Q) {
     return {edges.inverse() * Q, edges.determinant() / 6};

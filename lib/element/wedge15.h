@@ -91,6 +91,7 @@ struct Wedge15 : Isoparametric<ReferenceWedge15> {
       kTriangleEdge, kTriangleEdge, kTriangleEdge, kTriangleEdge, kLongEdge, kLongEdge, kLongEdge};
   // 8.622, of an affine cell: the larger root r of 289 r^2 - 2805 r + 2700 = 0.
   static constexpr double kLumpedToConsistent = 15 * (11 + 8.544003745317532) / 34;  // sqrt(73)
+  static constexpr int kPressures = 1;
 };
 
 static_assert(Element<Wedge15>);

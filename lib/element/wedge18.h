@@ -61,6 +61,7 @@ struct Wedge18 : Isoparametric<ReferenceWedge18> {
       kLongEdge,     kLongEdge,     kLongEdge,     kSide,         kSide,         kSide};
   // 10.06, of an affine cell: 5/2 of the line times the ratio r of the triangle, 361 r^2 - 1900 r + 1800 = 0.
   static constexpr double kLumpedToConsistent = 2.5 * 10 * (5 + 2.6457513110645907) / 19;  // sqrt(7)
+  static constexpr int kPressures = 1;
 };
 
 static_assert(Element<Wedge18>);

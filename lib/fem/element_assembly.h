@@ -98,12 +98,14 @@ class ElementAssembly {
   bool symmetric() const { return pattern_.symmetric(); }
   std::size_t bytes() const { return offsets_.capacity() * sizeof(Offsets); }
 
-  // Adds the matrix of element k; form_at(p) is the tangent form at its point p.
-  template <class FormAt>
-  void add_element(int k, double* values, FormAt&& form_at) const {
+  // Adds the matrix of element k; form_at(p) is the tangent form at its point p. add_more(blocks) may add to the blocks
+  // of nodes 1, 2, ...
+  template <class FormAt, class AddMore>
+  void add_element(int k, double* values, FormAt&& form_at, AddMore&& add_more) const {
     ElementBlocks<E::kNodes> blocks;
     for (int p = 0; p < elements_.num_points(); ++p)
       add_point_stiffness<E::kNodes>(form_at(p), elements_.point(k, p), symmetric(), p == 0, blocks);
+    add_more(blocks);
     complete<E::kNodes>(symmetric(), blocks);
     add_blocks(k, blocks, values);
   }

@@ -51,6 +51,9 @@ class ElementType {
   // Largest ratio of lumped to consistent kinetic energy of one element.
   virtual double lumped_to_consistent() const = 0;
 
+  // Whether elastic_term() has a mixed formulation (ElasticRegion::mixed).
+  virtual bool has_mixed_formulation() const = 0;
+
   // Makes the elastic term of a region of a mesh of this type. Type and pattern must outlive the term, the mesh need
   // not.
   virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,

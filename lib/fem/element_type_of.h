@@ -5,7 +5,7 @@
 #include "lib/element/linear_law.h"
 #include "lib/element/warped_law.h"
 #include "lib/fem/element_type.h"
-#include "lib/fem/terms/elastic_term_of.h"
+#include "lib/fem/terms/mixed_elastic_term.h"
 
 namespace orthodyn {
 
@@ -64,6 +64,8 @@ class ElementTypeOf final : public ElementType {
   }
   double lumped_to_consistent() const override { return E::kLumpedToConsistent; }
 
+  bool has_mixed_formulation() const override { return E::kPressures > 0; }
+
   std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                             const BlockPattern& pattern) const override {
     const Stiffness stiffness = region.stiffness;
@@ -82,6 +84,8 @@ class ElementTypeOf final : public ElementType {
   std::unique_ptr<ElasticTerm> term_with_stiffness(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
                                                    const BlockPattern& pattern) const {
     const ElasticityOptions options = region.options;
+    if constexpr (E::kPressures > 0)
+      if (region.mixed) return mixed_term(stiffness, mesh, std::move(region), pattern);
     const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
       return std::make_unique<ElasticTermOf<E, std::decay_t<decltype(law)>>>(*this, mesh, std::move(region), law,
                                                                              pattern, rule_ ? &*rule_ : nullptr);
@@ -89,6 +93,19 @@ class ElementTypeOf final : public ElementType {
     if (options.kinematics == Kinematics::linear) return with(LinearLaw<C>(stiffness));
     if (options.corotation == Corotation::warped) return with(WarpedLaw<C>(stiffness, options.warped_tangent));
     return with(CorotationalLaw<C>(stiffness));
+  }
+
+  template <class C>
+  std::unique_ptr<ElasticTerm> mixed_term(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
+                                          const BlockPattern& pattern) const {
+    const double kappa = bulk_modulus(Stiffness(stiffness));
+    const C rest = without_bulk(stiffness, kappa);
+    const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
+      return std::make_unique<MixedElasticTermOf<E, std::decay_t<decltype(law)>>>(
+          *this, mesh, std::move(region), law, kappa, pattern, rule_ ? &*rule_ : nullptr);
+    };
+    if (region.options.kinematics == Kinematics::linear) return with(LinearLaw<C>(rest));
+    return with(CorotationalLaw<C>(rest));
   }
 
   std::optional<IntegrationRule> rule_;  // empty: the points of E

@@ -20,12 +20,11 @@ SixColumns at_points(const ElasticTerm& term, const NodalState& s, const StressR
 
 // Stresses at all points in space axes at rest, Pa.
 SixColumns stresses(const ElasticTerm& term, const NodalState& s) {
-  const Mat6 C = term.stiffness();
-  const auto strains = term.strains(s);
-  SixColumns out(strains.cols(), 6);
-  for (Eigen::Index i = 0; i < strains.cols(); ++i) {
+  const auto stresses = term.stresses(s);
+  SixColumns out(stresses.cols(), 6);
+  for (Eigen::Index i = 0; i < stresses.cols(); ++i) {
     const auto k = static_cast<int>(i / term.num_points()), p = static_cast<int>(i % term.num_points());
-    out.row(i) = (stress_rotation(term.axes_at_rest(k, p)) * (C * strains.col(i))).transpose();
+    out.row(i) = (stress_rotation(term.axes_at_rest(k, p)) * stresses.col(i)).transpose();
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #include "lib/material/stiffness.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <utility>
 
@@ -28,6 +29,26 @@ OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c) {
   out.c12 = out.c23 = out.c31 = c.lambda;
   out.g12 = out.g23 = out.g31 = c.mu;
   return out;
+}
+
+double bulk_modulus(const Stiffness& c) {
+  const Mat6 compliance = voigt(c).inverse();
+  return 1 / compliance.topLeftCorner<3, 3>().sum();
+}
+
+IsotropicStiffness without_bulk(IsotropicStiffness c, double kappa) {
+  c.lambda -= kappa;
+  return c;
+}
+
+OrthotropicStiffness without_bulk(OrthotropicStiffness c, double kappa) {
+  for (double* normal : {&c.c11, &c.c22, &c.c33, &c.c12, &c.c23, &c.c31}) *normal -= kappa;
+  return c;
+}
+
+AnisotropicStiffness without_bulk(AnisotropicStiffness c, double kappa) {
+  c.c.topLeftCorner<3, 3>().array() -= kappa;
+  return c;
 }
 
 Mat6 voigt(const OrthotropicStiffness& c) {

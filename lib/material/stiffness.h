@@ -99,6 +99,16 @@ Mat6 voigt(const Stiffness& c);
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c);
 IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c);
 
+// The bulk modulus kappa = 1 / (I : S : I), Pa, with the compliance S: pressure p changes the volume by -p / kappa,
+// whatever else it does to the shape (Vergori, Destrade, McGarry & Ogden 2013, Computational Mechanics 52, 959).
+double bulk_modulus(const Stiffness& c);
+
+// C - kappa I (x) I for a kappa (Pa) of at most bulk_modulus(C). Positive semidefinite; for bulk_modulus(C) the strain
+// S : I, the response to pressure, has no stress.
+IsotropicStiffness without_bulk(IsotropicStiffness c, double kappa);
+OrthotropicStiffness without_bulk(OrthotropicStiffness c, double kappa);
+AnisotropicStiffness without_bulk(AnisotropicStiffness c, double kappa);
+
 // The 6x6 matrix K that rotates stresses in Voigt form from material axes, the columns of Q, to global axes: K sigma is
 // the Voigt form of Q sigma Q^T. The stiffness in global axes is K C K^T (Li & Barbic 2014, section 3).
 Mat6 stress_rotation(const Mat3& Q);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lib/fem/element_groups.h"
+#include "lib/material/stiffness_contrast.h"
 #include "lib/mesh/cell_rows.h"
 #include "lib/mesh/stack.h"
 #include "lib/scene/layup.h"
@@ -53,6 +54,19 @@ const ElementType& type_of_region(const Region& region, CellShape shape, const s
   const bool full =
       region.integration == Integration::full || (region.integration == Integration::automatic && has_rows);
   return full ? quadratic_hexahedron_14() : quadratic_hexahedron();
+}
+
+// Whether a part of the region has the mixed formulation.
+bool is_mixed(const Scene& scene, const Region& region, const Material& material, const ElementType& type) {
+  if (region.formulation == Formulation::displacement) return false;
+  const std::string obstacle = !type.has_mixed_formulation()
+                                   ? fmt::format("{} have none; set mesh.order: 2", topology(type.shape()).plural)
+                               : elasticity_of(scene, region).is_warped() ? "the warped force has none"
+                                                                          : "";
+  if (region.formulation == Formulation::mixed && !obstacle.empty())
+    region.origin.fail("formulation: mixed is not available: " + obstacle);
+  return obstacle.empty() &&
+         (region.formulation == Formulation::mixed || is_nearly_incompressible(voigt(material.stiffness())));
 }
 
 // Axes turned by `angle` (rad) about their axis 3.
@@ -178,7 +192,8 @@ void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh&
         own,
         {part.name, std::move(cells.here), part.material->stiffness(), axes, stiffness_damping(scene, entry),
          elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
-         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share},
+         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share,
+         is_mixed(scene, entry, *part.material, *part.type)},
         *parts.pattern));
     parts.densities.push_back(part.density);
   }

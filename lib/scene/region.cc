@@ -16,6 +16,12 @@ struct EnumNames<Integration> {
       {{Integration::automatic, "auto"}, {Integration::reduced, "reduced"}, {Integration::full, "full"}}};
 };
 
+template <>
+struct EnumNames<Formulation> {
+  static constexpr std::array<std::pair<Formulation, const char*>, 3> list{
+      {{Formulation::automatic, "auto"}, {Formulation::displacement, "displacement"}, {Formulation::mixed, "mixed"}}};
+};
+
 std::vector<std::string> Region::materials() const {
   if (layup.empty()) return {material};
   std::vector<std::string> all;
@@ -40,6 +46,11 @@ const Spec<Region>& Region::spec() {
                                  "Of hexahedra of 20 nodes. reduced: 8 points, accurate for thin bodies. full: 14 "
                                  "points, for rows that are one cell wide and high, which have shapes without "
                                  "stiffness (hourglass) with 8. auto: full if the region has such rows.")
+                            .key("formulation", &Region::formulation,
+                                 "mixed: with a separate pressure in each element, accurate for nearly incompressible "
+                                 "materials, whose stresses are wrong with displacements alone; not for linear "
+                                 "tetrahedra and elasticity.corotation: warped. auto: mixed where the material asks "
+                                 "for it.")
                             .check([](const Region& region, const Config& config) {
                               if (region.material.empty() && region.layup.empty())
                                 config.fail("key 'material' is missing: give a material or a layup");

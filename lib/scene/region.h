@@ -21,6 +21,9 @@ struct Scene;
 // automatic: full for hexahedra in rows that are one cell wide and high (lib/mesh/cell_rows.h), otherwise reduced.
 enum class Integration { automatic, reduced, full };
 
+// automatic: mixed for nearly incompressible materials, if the elements have a mixed formulation.
+enum class Formulation { automatic, displacement, mixed };
+
 struct Region {
   std::string material;    // empty if there is a layup
   std::vector<Ply> layup;  // from bottom to top; empty for a region of one material
@@ -28,6 +31,7 @@ struct Region {
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
   Integration integration = Integration::automatic;
+  Formulation formulation = Formulation::automatic;
   SourceLocation origin;
 
   std::vector<std::string> materials() const;  // of the region or of its plies

@@ -38,6 +38,7 @@ struct ElasticRegion {
   std::string ply = {};                   // name of the whole ply, of which this may be a part; "" for a region
   std::vector<int> cells_of_all = {};     // cells of all ranks in the whole mesh, ascending; empty with one rank
   double share = 1;                       // of a ply in the thickness of its cells
+  bool mixed = false;                     // formulation for nearly incompressible materials (mixed_elastic_term.h)
 };
 
 class ElasticTerm : public Term {
@@ -79,6 +80,10 @@ class ElasticTerm : public Term {
   // PointObservation::strain at all points in Voigt form with engineering shear, one column per point, element by
   // element. Much faster than observe_point().
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const = 0;
+
+  // C : e for these strains e, Pa: the stress in material axes that turn with the material. In the mixed formulation
+  // with the projected volume strain. Columns as in strains().
+  virtual Eigen::Matrix<double, 6, Eigen::Dynamic> stresses(const NodalState& s) const = 0;
 
   // Largest norm of Green's strain (F^T F - I)/2 over all points. Much faster than strains().
   virtual double largest_green_strain(const NodalState& s) const = 0;

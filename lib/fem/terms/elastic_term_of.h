@@ -17,7 +17,7 @@
 namespace orthodyn {
 
 template <Element E, class Law>
-class ElasticTermOf final : public ElasticTerm {
+class ElasticTermOf : public ElasticTerm {
  public:
   // The type and the pattern must outlive the term, the mesh need not. `rule`: the type's integration points; null if
   // the type has the points of E.
@@ -94,21 +94,11 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
-    double* const damping = damped() ? D : nullptr;
-    loops_.for_each_batch([&](int b) {
-      if (!add_batch_tangent(b, s, kind, K, damping))
-        loops_.for_each_of(b, [&](int k) { add_element_tangent(k, s, kind, K, damping); });
-    });
+    add_tangents(s, kind, K, D, [](int) { return NothingElse{}; });
   }
 
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
-      loops_.for_each_element([&](int k) {
-        assembly_.add_element(k, K, [&](int p) {
-          return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
-        });
-      });
-    else add_tangent(s, TangentKind::exact, K, nullptr);
+    add_mixed_tangents(before, s, K, [](int) { return NothingElse{}; });
   }
 
   double energy(const NodalState& s) const override {
@@ -165,6 +155,13 @@ class ElasticTermOf final : public ElasticTerm {
           for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
       }
     });
+    return out;
+  }
+
+  Eigen::Matrix<double, 6, Eigen::Dynamic> stresses(const NodalState& s) const override {
+    const Mat6 C = stiffness();
+    Eigen::Matrix<double, 6, Eigen::Dynamic> out = strains(s);
+    for (Eigen::Index i = 0; i < out.cols(); ++i) out.col(i) = (C * out.col(i)).eval();
     return out;
   }
 
@@ -227,13 +224,66 @@ class ElasticTermOf final : public ElasticTerm {
     return volume_excess_ * largest / density;
   }
 
- private:
+ protected:
   using Form = typename Law::Form;
   using Columns = typename ElementBatches<E>::Columns;
 
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
+  // A part of the tangent besides that of the law, for one batch: of nothing here, see mixed_elastic_term.h.
+  struct NothingElse {
+    template <class Form>
+    void add_to(int, Form&) const {}
+    template <class Form>
+    void add_to_lane(int, int, Form&) const {}
+    template <class Blocks>
+    void add_to(double, bool, Blocks&) const {}
+    template <class Blocks>
+    void add_to_lane(double, bool, int, Blocks&) const {}
+  };
+
+  // As add_tangent() and add_mixed_tangent(), with part_of(b) added for each batch.
+  template <class PartOf>
+  void add_tangents(const NodalState& s, TangentKind kind, double* K, double* D, PartOf&& part_of) const {
+    double* const damping = damped() ? D : nullptr;
+    loops_.for_each_batch([&](int b) {
+      const auto part = part_of(b);
+      if (!add_batch_tangent(b, s, kind, K, damping, part))
+        loops_.for_each_of(b, [&](int k) { add_element_tangent(k, s, kind, K, damping, part); });
+    });
+  }
+
+  template <class PartOf>
+  void add_mixed_tangents(const NodalState& before, const NodalState& s, double* K, PartOf&& part_of) const {
+    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
+      loops_.for_each_batch([&](int b) {
+        const auto part = part_of(b);
+        loops_.for_each_of(b, [&](int k) {
+          add_element(k, K, 1, part, [&](int p) {
+            Form form =
+                law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
+            part.add_to_lane(p, k % Batch::kLanes, form);
+            return form;
+          });
+        });
+      });
+    else add_tangents(s, TangentKind::exact, K, nullptr, part_of);
+  }
+
+  // Mean of H over the element's volume, times the mean axes.
+  Mat3 mean_gradient(int k, const NodalVector& u) const {
+    if (num_points() == 1) return elements_.gradient(k, 0, u);
+    Mat3 sum = Mat3::Zero();
+    double volume = 0;
+    for (int p = 0; p < num_points(); ++p) {
+      sum += elements_.volume(k, p) * elements_.gradient(k, p, u) * axes().of(k, p).transpose();
+      volume += elements_.volume(k, p);
+    }
+    return sum / volume * axes().mean(k);
+  }
+
+ private:
   // |F^T F - I|^2 (Frobenius norm).
   ORTHODYN_FLATTEN static Batch green_square(const Mat3T<Batch>& F) {
     Batch square(0);
@@ -289,53 +339,58 @@ class ElasticTermOf final : public ElasticTerm {
     return sum;
   }
 
-  // Mean of H over the element's volume, times the mean axes.
-  Mat3 mean_gradient(int k, const NodalVector& u) const {
-    if (num_points() == 1) return elements_.gradient(k, 0, u);
-    Mat3 sum = Mat3::Zero();
-    double volume = 0;
-    for (int p = 0; p < num_points(); ++p) {
-      sum += elements_.volume(k, p) * elements_.gradient(k, p, u) * axes().of(k, p).transpose();
-      volume += elements_.volume(k, p);
-    }
-    return sum / volume * axes().mean(k);
-  }
-
   void note_volume(int k, const ElementNodes<E::kNodes>& X) {
     double sum = 0;
     for (int p = 0; p < num_points(); ++p) sum += elements_.volume(k, p);
     volume_excess_ = std::max(volume_excess_, sum / (region_.share * E::mass(X, 1)));
   }
 
-  void add_element_tangent(int k, const NodalState& s, TangentKind kind, double* K, double* D) const {
+  // Adds an element's matrix, and `factor` times the part's.
+  template <class Part, class FormAt>
+  void add_element(int k, double* values, double factor, const Part& part, FormAt&& form_at) const {
+    assembly_.add_element(k, values, form_at, [&](ElementBlocks<E::kNodes>& blocks) {
+      part.add_to_lane(factor, assembly_.symmetric(), k % Batch::kLanes, blocks);
+    });
+  }
+
+  template <class Part>
+  void add_element_tangent(int k, const NodalState& s, TangentKind kind, double* K, double* D, const Part& part) const {
     const auto form_at = [&](int p, Form* damping) {
       return law_.tangent(elements_.gradient(k, p, s.u), axes().of(k, p), kind, region_.beta, damping);
     };
     if (D)
-      assembly_.add_element(k, D, [&](int p) {
+      add_element(k, D, region_.beta, part, [&](int p) {
         Form damping;
         form_at(p, &damping);
         return damping;
       });
-    assembly_.add_element(k, K, [&](int p) { return form_at(p, nullptr); });
+    add_element(k, K, 1, part, [&](int p) {
+      Form form = form_at(p, nullptr);
+      part.add_to_lane(p, k % Batch::kLanes, form);
+      return form;
+    });
   }
 
   // Returns false and adds nothing if an element of the batch is inverted or degenerate, or the law has no batch
   // version.
-  bool add_batch_tangent(int b, const NodalState& s, TangentKind kind, double* K, double* D) const {
+  template <class Part>
+  bool add_batch_tangent(int b, const NodalState& s, TangentKind kind, double* K, double* D, const Part& part) const {
     if constexpr (requires { typename Law::BatchForm; }) {
       const Columns u = elements_.differences(b, s.u);
       ElementBlocks<E::kNodes, Batch> stiffness, damping;
       for (int p = 0; p < num_points(); ++p) {
         typename Law::BatchForm damping_form;
         Batch::Mask good;
-        const auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
-                                             D ? &damping_form : nullptr, good);
+        auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
+                                       D ? &damping_form : nullptr, good);
         if (!all(good)) return false;
+        part.add_to(p, form);
         const auto points = elements_.points(b, p);
         add_point_stiffness<E::kNodes>(form, points, assembly_.symmetric(), p == 0, stiffness);
         if (D) add_point_stiffness<E::kNodes>(damping_form, points, assembly_.symmetric(), p == 0, damping);
       }
+      part.add_to(1, assembly_.symmetric(), stiffness);
+      if (D) part.add_to(region_.beta, assembly_.symmetric(), damping);
       assembly_.add_batch(b, stiffness, K);
       if (D) assembly_.add_batch(b, damping, D);
       return true;
@@ -365,10 +420,14 @@ class ElasticTermOf final : public ElasticTerm {
 
   const ElementType& type_;
   ElasticRegion region_;
+
+ protected:
   Law law_;
   ElementBatches<E> elements_;
   ElementAssembly<E> assembly_;
   BatchLoops loops_;
+
+ private:
   bool is_own_rule_;          // of E
   double volume_excess_ = 1;  // max over elements of (sum of the points' volumes) / volume
 };

@@ -120,6 +120,10 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
+  // Displacements of mixed elements that finer ones take over change the volume of these, which has a large energy.
+  const auto is_mixed = [](const auto& term) { return term->definition().mixed; };
+  const auto& elastic = model.parts().elastic;
+  if (std::any_of(elastic.begin(), elastic.end(), is_mixed)) return false;
   return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
 }
 

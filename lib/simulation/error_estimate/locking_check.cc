@@ -4,36 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "lib/core/symmetric_eigen.h"
 #include "lib/fem/element_mesh.h"
+#include "lib/material/stiffness_contrast.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kFlat = 6;           // width of cells over thickness: above it, they are flat
-constexpr double kBends = 0.3;        // share of the squared strains that varies within cells
-constexpr double kVolumetric = 0.95;  // least cosine between the stiffest strain and a volume change
+constexpr double kFlat = 6;     // width of cells over thickness: above it, they are flat
+constexpr double kBends = 0.3;  // share of the squared strains that varies within cells
 
 // Ratios of the largest to the smallest eigenvalue of the stiffness above which elements of this order lock.
 double stiff_volume(int order) { return order == 1 ? 30 : 300; }
 double stiff_direction(int order) { return order == 1 ? 1000 : 5000; }
-
-struct Contrast {
-  double ratio;
-  bool volumetric;
-};
-
-// Ratio of the extreme eigenvalues of the stiffness in Mandel's notation, in which stress times strain is work.
-Contrast contrast(const Mat6& stiffness) {
-  Vec6 scale;
-  scale << 1, 1, 1, std::numbers::sqrt2, std::numbers::sqrt2, std::numbers::sqrt2;
-  const auto pairs = symmetric_eigenpairs<6>(Mat6(scale.asDiagonal() * stiffness * scale.asDiagonal()));
-  const double along_volume = std::abs(pairs.vectors.col(5).head<3>().sum()) / std::sqrt(3.0);
-  return {pairs.values[5] / pairs.values[0], along_volume > kVolumetric};
-}
 
 double volume_of_corners(const Mesh& mesh, std::size_t tet) {
   const auto nodes = mesh.cells[tet];
@@ -95,7 +79,8 @@ std::string flat_cells(const FemModel& model, const State& state) {
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
   const int order = model.parts().mesh.order();
   for (const auto& term : model.parts().elastic) {
-    const auto [ratio, volumetric] = contrast(term->stiffness());
+    const auto [ratio, volumetric] = stiffness_contrast(term->stiffness());
+    if (volumetric && term->definition().mixed) continue;
     if (by_finer_elements && volumetric) continue;
     if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
     return fmt::format(
