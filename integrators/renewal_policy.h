@@ -30,7 +30,7 @@ class RenewalPolicy {
   // True if the next solve should begin with a new matrix.
   bool is_due() const { return forced_left_ > 0 || is_expensive_; }
 
-  // The next renewal is due to a restart and no failure of the old matrix.
+  // Call it at a restart: the next renewal then does not count as a failure of the old matrix.
   void restart() { restarted_ = true; }
 
   // Call it after each solve of a step or stage. `iterations`: number of iterations of the solve; attempts that did not

@@ -12,8 +12,8 @@ namespace orthodyn {
 
 // The load over one step, as a function of theta = (time - t) / h in [0, 1].
 struct StepLoad {
-  double t = 0, h = 0;  // start and length of the step, s; h = 0 before the first step
-  bool varies = false;
+  double t = 0, h = 0;         // start and length of the step, s; h = 0 before the first step
+  bool varies = false;         // false for a load that is constant over the step
   Vector first;                // f at the first point, N
   Eigen::MatrixXd modal;       // coefficients of Phi^T f
   Eigen::MatrixXd correction;  // coefficients of u, the static correction; one column unless the load varies

@@ -1,8 +1,8 @@
-// Base of the native implicit one-step methods: both ends of the last step, error control or a fixed step, dense
+// Base of the native implicit one-step methods, with both ends of the last step, error control or a fixed step, dense
 // output, statistics and failure messages. A derived method implements attempt() and estimate().
 //
-// With error control a step is repeated until the norm of its local error is at most 1 (scaled_norm.h). If a fixed step
-// has no solution, it is divided into substeps, down to 2^-10 of its length, and still counts as one step. If no
+// With error control a step is shortened until the norm of its local error is at most 1 (scaled_norm.h). If a fixed
+// step has no solution, it is divided into substeps, down to 2^-10 of its length, and still counts as one step. If no
 // solution is found, step() throws RunError with the time, the step and the remedy. Not thread-safe: one object per
 // run.
 #pragma once

@@ -16,7 +16,7 @@ namespace orthodyn::sundials {
 
 class StageNewton {
  public:
-  // The rate is used again as long as these are the same, gamma (s) to round-off.
+  // The convergence rate of earlier stages is used while these values are unchanged, gamma (s) to round-off.
   struct Conditions {
     long factorizations = 0;  // number so far
     double gamma = 0;
@@ -27,7 +27,7 @@ class StageNewton {
   StageNewton(const StageNewton&) = delete;
   StageNewton& operator=(const StageNewton&) = delete;
 
-  // Pass it to ARKODE, which installs its own convergence test; then call replace_test().
+  // Pass the solver to ARKODE, which installs its own convergence test; then call replace_test().
   SUNNonlinearSolver get() const { return solver_.get(); }
   void replace_test();
 

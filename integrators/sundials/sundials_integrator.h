@@ -39,8 +39,8 @@ struct LibraryCalls {
   int (*set_tangent_interval)(void* memory, long steps) = nullptr;
 };
 
-// The LibraryCalls of CVODE, IDA or ARKODE, given the prefix of its functions: CVode, IDA or ARKStep; without those
-// that IDA does not have.
+// The LibraryCalls of CVODE, IDA or ARKODE from the prefix of its functions, CVode, IDA or ARKStep. Calls that IDA
+// lacks stay null.
 #define ORTHODYN_LIBRARY_CALLS(prefix)                                                                               \
   {                                                                                                                  \
     .set_user_data = prefix##SetUserData, .set_error_weights = prefix##WFtolerances,                                 \
@@ -81,7 +81,7 @@ class SundialsIntegrator : public Integrator {
   // Computes (q, v) at a time within the last step; returns the library's flag.
   virtual int dense_output(double t, N_Vector out) const = 0;
   virtual Reason classify(int flag) const = 0;  // reason for a negative flag
-  // Number of steps that the derived class has restarted; the library does not count them as convergence failures.
+  // Number of steps that the derived class has tried again; the library does not count these as convergence failures.
   virtual long retries() const { return 0; }
   virtual std::size_t own_bytes() const { return 0; }  // besides library workspace and linear solver, bytes
   // Message for a step whose iteration does not converge, with the remedy.
@@ -93,8 +93,7 @@ class SundialsIntegrator : public Integrator {
   void use_nonsmooth_newton();
   // Passes the Newton system to the library after its creation.
   void attach_linear_solver();
-  // Calls `attempt`, which makes the library take one step, with a new matrix if that is due (renewal_policy.h).
-  // Returns the library's flag.
+  // Calls `attempt`, one step of the library, with a new matrix if one is due (renewal_policy.h). Returns its flag.
   int with_due_matrix(const std::function<int()>& attempt);
   // Call it when the library is restarted: it then renews the matrix.
   void restart_renewal();

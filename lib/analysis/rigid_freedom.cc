@@ -128,7 +128,8 @@ class RigidMotions {
   double radius_ = 0;
 };
 
-// Those of the given combinations that have no stiffness. `motions`: their displacements, `stiffness`: K, on this rank.
+// Motions in the span of `combinations` without stiffness. `motions`: their displacements, `stiffness`: K, on this
+// rank.
 Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& motions,
                                   const FemModel& model, const std::vector<double>& stiffness) {
   const Pattern& pattern = model.pattern();

@@ -67,7 +67,7 @@ class Config {
   bool boolean() const;
   std::string text() const;
 
-  // Writes a default, given as YAML or as plain text, into this map, so that dump() shows it. Returns its place.
+  // Writes a default, given as YAML or as plain text, into this map, so that dump() shows it. Returns the new entry.
   // Precondition: this is a resolving() Config.
   Config fill(const std::string& key, const std::string& yaml) const;
   Config fill_text(const std::string& key, const std::string& text) const;

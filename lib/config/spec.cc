@@ -72,8 +72,8 @@ std::string decimal_comma(const std::string& name, const Config& section, const 
   return "; is it meant as '" + before + ": " + text + "." + name + "'? A comma separates keys; decimals have a point.";
 }
 
-// A hint for an unknown key: "; it belongs below 'mesh': indent it.", or a similar name. The preferred section is the
-// key before it, if that has no value.
+// A hint for an unknown key: "; it belongs below 'mesh': indent it.", or a similar name. Prefers the section
+// `before` if it takes the key and has no value.
 std::string hint_for(const std::string& name, const Config& section, const std::string& before,
                      const std::vector<Key>& keys, const std::vector<std::string>& known) {
   constexpr std::size_t kMostHolders = 3;

@@ -1,5 +1,5 @@
-// Converts C++ types from and to YAML. Value<V> has schema(), read() and yaml(), which returns "" if the value means
-// "absent".
+// Converts C++ types from and to YAML. Value<V> has schema(), read() and yaml(); yaml() returns "" for a value that
+// means "absent".
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Shapes of cells: their corners, middles and faces. Nodes are numbered as by VTK:
 //
 //   tetrahedron  corners 0 1 2 3, with positive volume (x1-x0) . ((x2-x0) x (x3-x0))
-//   wedge        triangle 0 1 2, opposite triangle 3 4 5; the normal of 0 1 2 points inward
+//   wedge        triangle 0 1 2, opposite triangle 3 4 5; the normal of 0 1 2 points inward (VTK's manual: outward)
 //   hexahedron   quadrilateral 0 1 2 3, opposite one 4 5 6 7; the normal of 0 1 2 3 points inward
 //
 // The nodes after the corners are the middles of edges, then of quadrilaterals, then of the cell.
@@ -35,7 +35,7 @@ struct CellTopology {
   int vtk_type;
   int corners, nodes;
   int order;  // 1: linear, 2: quadratic
-  // For each node after the corners, the corners whose middle it is: 2 of an edge, 4 of a quadrilateral, 8 of a cell.
+  // For each node after the corners: the corners of the edge (2), quadrilateral (4) or cell (8) with this middle.
   std::vector<std::vector<int>> middles;
   // Nodes of each face: corners counterclockwise as seen from outside, then the middle of each edge from a corner to
   // the next one, then the middle of a quadrilateral. Empty for shapes of faces.

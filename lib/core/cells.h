@@ -14,15 +14,13 @@ class Cells {
  public:
   Cells() = default;
 
-  // Cells of one shape. `nodes`: node indices, cell by cell. Precondition: their number is a multiple of that of the
-  // shape.
+  // Cells of one shape. `nodes`: node indices, cell by cell. Precondition: a whole number of cells.
   Cells(CellShape shape, std::span<const int> nodes) {
     const auto per_cell = static_cast<std::size_t>(topology(shape).nodes);
     reserve(nodes.size() / per_cell, per_cell);
     for (; !nodes.empty(); nodes = nodes.subspan(per_cell)) add(shape, nodes.first(per_cell));
   }
 
-  // Linear tetrahedra.
   explicit Cells(const std::vector<std::array<int, 4>>& tets) {
     reserve(tets.size(), 4);
     for (const auto& tet : tets) add(CellShape::tet4, tet);
@@ -67,7 +65,7 @@ class Cells {
 
  private:
   std::vector<int> nodes_;
-  std::vector<std::size_t> start_{0};  // of each cell in nodes_, and the end
+  std::vector<std::size_t> start_{0};  // start of each cell in nodes_, and the end of the last
   std::vector<CellShape> shapes_;
 };
 

@@ -15,8 +15,8 @@ namespace orthodyn {
 // identity.
 struct PatternShare {
   const Ranks* ranks;
-  int owned;                      // unknowns that this rank owns; they come first, and vectors hold only these
-  int owned_points;               // points that the owned unknowns belong to
+  int owned;                      // number of owned unknowns, which come first; vectors hold only these
+  int owned_points;               // number of points that the owned unknowns belong to
   std::int64_t first_point;       // global number of the first owned point
   std::vector<std::int64_t> row;  // global row of each unknown
   std::int64_t unknowns;          // number of unknowns of all ranks

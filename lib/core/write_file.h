@@ -1,4 +1,5 @@
-// Atomic writing of files: a file is complete or absent. All functions throw RunError with the system's error message.
+// Atomic writing of files: a file is written completely or not at all. Failures throw RunError with the system's error
+// message, except in write_all() and remove_partial_files().
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 // g_a = Q^T grad N_a with the axes as columns of Q, so that all products are H Q and P Q.
 //
 // Each element has its own file: a struct E with static, pure functions that satisfies the concept below.
-// ElementTypeOf<E> (lib/fem/element_type_of.h) compiles the module fem for it.
+// ElementTypeOf<E> (lib/fem/element_type_of.h) makes it an ElementType.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   // Point `point` in [0, kPoints), from the node differences at rest and the material axes.
   { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
   { E::place_of(point, X) } -> std::same_as<Vec3>;  // m, at rest
-  // The largest degree of which the shape functions contain all polynomials.
+  // The largest d such that the shape functions span all polynomials of degree d.
   { E::kDegree } -> std::convertible_to<int>;
   // Extrapolates point values to the nodes by the polynomial through the points.
   { E::points_to_nodes() } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kPoints>>;
@@ -67,7 +67,7 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;
 };
 
-// An element with functions for any integration point, so that it can have other points than its own kPoints.
+// An element that can be integrated by any IntegrationRule, not only at its own kPoints.
 template <class E>
 concept HasIntegrationRules = Element<E> &&
     requires(QuadraturePoint at, NodeDifferences<E::kNodes> d, Vec3 xi, Mat3 Q, IntegrationRule rule) {

@@ -1,4 +1,4 @@
-// Isoparametric elements: what follows from a reference element by the map X(xi) = sum_a X_a N_a(xi).
+// Isoparametric elements: functions derived from a reference element by the map X(xi) = sum_a X_a N_a(xi).
 //
 // A reference element R is a struct with static members:
 //
@@ -8,7 +8,7 @@
 //   shape_slopes(xi)    their derivatives dN_a/dxi_i
 //   points()            quadrature points of the stiffness
 //   mass_points()       quadrature points of the mass
-//   interpolation(xi)   kPoints polynomials that values at points() determine
+//   interpolation(xi)   kPoints polynomials, a basis for interpolation between points()
 //
 // Isoparametric<R> then has all functions of the concept Element. Volume and mass are exact where mass_points()
 // integrate det J exactly, and the consistent mass where they integrate N_a N_b det J.
@@ -48,7 +48,7 @@ struct Isoparametric : R {
     return rest * R::shape_slopes(xi).template bottomRows<kNodes - 1>();
   }
 
-  // The places where the Jacobian is checked: nodes, and integration points of stiffness and mass.
+  // Natural coordinates at which validate() checks the Jacobian: nodes, points() and mass_points().
   static const std::vector<Place>& checked_places() {
     static const std::vector<Place> all = [] {
       std::vector<Place> places;
@@ -74,7 +74,7 @@ struct Isoparametric : R {
     return extrapolation(R::points(), &R::interpolation);
   }
 
-  // Matrix (nodes x points) that extrapolates values at `points` to the nodes by as many polynomials.
+  // Matrix (nodes x points) that extrapolates values at `points` to the nodes. `polynomials`: one for each point.
   template <class Polynomials>
   static Eigen::MatrixXd extrapolation(const std::vector<QuadraturePoint>& points, Polynomials&& polynomials) {
     const auto n = static_cast<Eigen::Index>(points.size());
@@ -85,7 +85,7 @@ struct Isoparametric : R {
     return at_nodes * at_points.inverse();
   }
 
-  // The points of R as a rule, and a rule's points moved to the part begin < t < end of the third natural coordinate in
+  // own_rule(): the points of R. part_of_rule(): `rule` mapped to begin < t < end, t the third natural coordinate in
   // [-1, 1].
   static IntegrationRule own_rule() { return {R::points(), R::nodes(), points_to_nodes()}; }
   static IntegrationRule part_of_rule(IntegrationRule rule, double begin, double end) {

@@ -47,18 +47,18 @@ struct QuadraturePoint {
   double weight;
 };
 
-// Replaces the integration points of an element's struct. The points cover the whole cell or one ply of it.
+// Replaces the kPoints points of an element. The points cover a part of the cell: all of it or one ply.
 struct IntegrationRule {
   std::vector<QuadraturePoint> points;
-  Eigen::Matrix3Xd nodes;    // natural coordinates in the cell of the part's nodes, numbered as the cell's
+  Eigen::Matrix3Xd nodes;    // nodes of the part, in natural coordinates and node order of the cell
   Eigen::MatrixXd to_nodes;  // nodes x points: extrapolates values at the points to `nodes`
 };
 
-// (x, y, 0) in [-1, 1]^2: exact for polynomials of degree 5 in each coordinate; sum of weights 4.
+// Points (x, y, 0) of [-1, 1]^2, exact for polynomials of degree 5 in each coordinate. Sum of weights 4.
 const std::array<QuadraturePoint, 9>& square_points_of_degree_5();
 
-// Products of rules, the first coordinate varying fastest: on [-1, 1]^3, sum of weights 8, and on the wedge (r, s, t)
-// with the barycentric coordinates (1 - r - s, r, s) and t in [-1, 1], sum of weights 1.
+// Product rules. cube_points(): on [-1, 1]^3, x varying fastest; sum of weights 8. wedge_points(): on the wedge (r, s,
+// t), barycentric coordinates (1 - r - s, r, s) and t in [-1, 1], t varying slowest; sum of weights 1.
 std::vector<QuadraturePoint> cube_points(const std::vector<LinePoint>& line);
 std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& triangle,
                                           const std::vector<LinePoint>& line);

@@ -29,7 +29,7 @@ DifferenceWeights::DifferenceWeights(double x) {
   second = c[2];
 }
 
-// In one part of the step limits, the function is close to a cubic, so that the part covers about a third of a period.
+// The function is close to a cubic over each part of the step limits, so a part covers about a third of a period.
 DifferenceStep::DifferenceStep(StepLimits limits, double start, double end)
     : longest_(end > start ? (end - start) / 1000 : 1), limits_(std::move(limits)) {}
 

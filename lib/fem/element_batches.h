@@ -25,7 +25,7 @@ class ElementBatches {
  public:
   static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes;
   using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
-  // One column per node but the first.
+  // One column per node except the first.
   using Columns = Eigen::Matrix<Batch, 3, kNodes - 1>;
 
   // `axes` are in the order of `cells`. `rule`: null for the points of E. The arguments need not outlive this object.
@@ -34,7 +34,7 @@ class ElementBatches {
 
   int size() const { return size_; }
   int num_batches() const { return static_cast<int>(nodes_.size()); }
-  // A constant for elements that have no other points than their own.
+  // A compile-time constant for elements without integration rules.
   int num_points() const {
     if constexpr (HasIntegrationRules<E>) return num_points_;
     else return E::kPoints;
@@ -63,7 +63,7 @@ class ElementBatches {
 
   // Adds the nodal forces -V dPsi/dx (N) of a point of a batch or of an element to f, where V is the point's volume and
   // Psi the energy density. `P`: the stress times the axes, P Q (Pa). For a batch, f has the forces on the nodes 1, 2,
-  // ...; the `first` call sets it, and scatter() adds it to the forces on all nodes.
+  // ...; the `first` call sets f. scatter() then adds f, and the force on node 0, to the nodal forces of the mesh.
   void add_forces(int batch, int point, const Mat3T<Batch>& P, bool first, Columns& f) const;
   void scatter(int batch, const Columns& batch_force, NodalVector& f) const;
   void add_force(int k, int point, const Mat3& P, NodalVector& f) const;

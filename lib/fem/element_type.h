@@ -16,7 +16,7 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  static constexpr int kMostNodes = 27;  // small matrices need no allocation
+  static constexpr int kMostNodes = 27;  // largest number, so that matrices need no allocation
   // Node positions at rest (m), one column each.
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 
@@ -26,9 +26,9 @@ class ElementType {
   const char* name() const { return topology(shape()).name; }
   int num_nodes() const { return topology(shape()).nodes; }
 
-  // Node positions (m) of the part of the cell that is integrated: all of the cell, or a ply.
+  // Node positions (m) of the part of the cell that this type integrates: the whole cell or a ply.
   virtual Nodes part(const Nodes& X) const = 0;
-  // Whether a node of the cell lies in this part.
+  // Whether the cell's node with this index lies in the part.
   virtual bool holds(int node) const = 0;
   // This type for the ply begin < t < end of the third natural coordinate in [-1, 1]. Null for tetrahedra.
   virtual std::unique_ptr<const ElementType> ply(double begin, double end) const = 0;
@@ -38,7 +38,7 @@ class ElementType {
 
   virtual int num_points() const = 0;
 
-  // The largest degree of which the shape functions contain all polynomials.
+  // The largest d such that the shape functions span all polynomials of degree d.
   virtual int degree() const = 0;
   // Extrapolates values at the integration points to the nodes of part().
   virtual Eigen::MatrixXd points_to_nodes() const = 0;
@@ -54,8 +54,7 @@ class ElementType {
   // Whether elastic_term() has a mixed formulation (ElasticRegion::mixed).
   virtual bool has_mixed_formulation() const = 0;
 
-  // Makes the elastic term of a region of a mesh of this type. Type and pattern must outlive the term, the mesh need
-  // not.
+  // Makes the elastic term of a region of such elements. Type and pattern must outlive the term, the mesh need not.
   virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                                     const BlockPattern& pattern) const = 0;
 };

@@ -1,7 +1,7 @@
 // Fields at the nodes that derive from recovered stress and strain tensors (stress_recovery.h): invariants and failure
 // criteria. Each region is evaluated with its own material; a node of several regions takes the largest value. A ply
-// counts as a region: it has values where its own bottom, middle and top are, which are listed at the cell's nodes. For
-// the whole body, tensors at a node are means over the regions and plies that contain it.
+// counts as a region: the values at its own bottom, middle and top are listed at the bottom, middle and top nodes of
+// the cell. For the whole body, a tensor at a node is the mean over the regions and plies that contain it.
 #pragma once
 
 #include <map>
@@ -48,14 +48,14 @@ const std::vector<DerivedField>& derived_fields();
 // The recovered tensors of one state, each computed at its first use and then kept. Not thread-safe.
 class RecoveredTensors {
  public:
-  // Both arguments, and the vectors that the state refers to, must outlive this object.
+  // `recovery`, and the vectors that `s` refers to, must outlive this object.
   RecoveredTensors(const StressRecovery& recovery, const NodalState& s) : recovery_(recovery), state_(s) {}
 
   // Nodal values of the tensor in one region; the reference stays valid. Collective at the first use.
   const StressRecovery::NodalValues& of(const TensorField& tensor, std::size_t region);
 
-  // The tensor at one node, from the elements around it unless of() has been called; empty if the node is not of the
-  // region. Collective with several ranks.
+  // The tensor at one node; empty if the region lacks the node. One rank evaluates only the elements around the
+  // node, unless of() was called. Collective with several ranks.
   std::optional<StressRecovery::NodalValue> at(const TensorField& tensor, std::size_t region, int node);
 
   std::size_t num_nodes() const { return recovery_.num_nodes(); }

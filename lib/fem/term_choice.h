@@ -16,8 +16,8 @@
 
 namespace orthodyn {
 
-// The body that a term acts on. Everything except the mesh outlives the term. With several ranks, `mesh` and `rest`
-// belong to the whole body; `pattern` and `nodal_masses` belong to this rank's subdomain and are used by Term::part().
+// The body that a term acts on. `mesh` and `rest`, always of the whole body, are valid only during make().
+// `pattern` and `nodal_masses` outlive the term; with several ranks they are this rank's, for Term::part().
 struct Discretization {
   const Mesh& mesh;
   const NodalVector& rest;  // node positions at rest, m

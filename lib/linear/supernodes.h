@@ -33,7 +33,7 @@ struct Supernodes {
   };
 
   std::vector<int> order;           // row of A that is at each row of P A P^T
-  bool nested_dissection = false;   // or minimum degree
+  bool nested_dissection = false;   // false: minimum degree
   std::vector<int> first_column;    // of each supernode, and n
   Groups rows;                      // rows of P A P^T of each block: its columns come first
   std::vector<std::size_t> blocks;  // start of each block in L, and the size of L
@@ -42,7 +42,7 @@ struct Supernodes {
   std::vector<int> entries_start;
   std::vector<Update> updates;  // by supernode, in ascending order of `from`
   std::vector<int> updates_start;
-  int most_rows = 0;  // of a block
+  int most_rows = 0;  // largest number of rows of a block
 
   // Subtrees of the elimination tree, which do not depend on each other, and the supernodes above them, ascending.
   std::vector<Range> subtrees;

@@ -1,4 +1,4 @@
-// Straight rows of hexahedra that are one cell wide and high.
+// Finds straight rows of hexahedra, one cell wide and one cell high.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace orthodyn {
 
-// For each cell, whether it is a hexahedron of 20 nodes without neighbours in two of its three directions.
+// For each cell: 1 for a hexahedron of 20 nodes without neighbours in two of its three directions, else 0.
 std::vector<char> cells_in_rows(const Mesh& mesh);
 
 }  // namespace orthodyn

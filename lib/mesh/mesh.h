@@ -27,12 +27,11 @@ struct Mesh {
   std::vector<std::string> region_names;  // at least one
   std::map<std::string, std::vector<FaceCorners>> surfaces;
   std::map<std::string, std::vector<int>> node_sets;  // ascending, each node once
-  // For each cell the element of the file (from 0) that it was split from, ascending. Empty: no element was split.
+  // For each cell, the index (from 0, ascending) of the file's element that it is part of. Empty: no element was split.
   std::vector<int> cell_of = {};
 
   // 1: linear, 2: quadratic.
   int order() const { return cells.empty() ? 1 : topology(cells.shape(0)).order; }
-  // Whether all cells are tetrahedra.
   bool has_tets_only() const;
 
   const Vec3& node(int index) const { return nodes[static_cast<std::size_t>(index)]; }
@@ -52,10 +51,10 @@ double signed_volume6(const Mesh& mesh, const Tet& tet);
 // The mean of the corners of a cell, m.
 Vec3 centroid(const Mesh& mesh, int cell);
 
-// Volume of a cell by its shape functions, m^3.
+// Volume of a cell by its shape functions, m^3; negative for an inverted cell.
 double cell_volume(const Mesh& mesh, std::size_t cell);
 
-// The shapes in a mesh with their numbers: "24 hexahedra of 20 nodes and 6 wedges of 15 nodes".
+// Number of cells of each shape: "24 hexahedra of 20 nodes and 6 wedges of 15 nodes".
 std::string describe_cells(const Cells& cells);
 
 // The outer faces, oriented outward.
@@ -80,17 +79,17 @@ struct MeshOrigin {
 // Changes that were made to obtain a valid mesh, one sentence each.
 using Warnings = std::vector<std::string>;
 
-// Checks that the mesh can be used for a computation and completes it. Requires
-//   at least one element, indices in range, finite coordinates;
-//   no inverted or degenerate element (|6 volume| < 1e-14 longest edge^3);
-//   no folded element (at a node, or at an integration point of stiffness or mass, the Jacobian's determinant is less
-//   than 1e-6 of its value with straight edges, for hexahedra and wedges of its mean); no elements that overlap at a
-//   common face or have different nodes on a common edge or face; no two nodes of elements at exactly the same position
-//   (an unintended crack); no triangle of one element on a quadrilateral of another; no surface face that is not a face
-//   of an element.
+// Checks a mesh and cleans it up. Requires
+//   at least one element, all of one order, indices in range, finite coordinates;
+//   no inverted or degenerate element (|6 volume| < 1e-14 d^3, d the largest distance of two corners);
+//   no folded element (at one of its checked_places(), det J <= 1e-6 of its value with straight edges, for hexahedra
+//   and wedges of its mean);
+//   no elements that overlap at a common face or have different nodes on a common edge or face;
+//   no two nodes of elements at exactly the same position (an unintended crack);
+//   no triangle of one element on a quadrilateral of another; no surface face that is not a face of an element.
 // Removes, with a warning, nodes that no element uses and faces that a surface lists twice; sorts node sets; orients
 // surface faces on the boundary outward (faces between two elements keep their orientation). Throws ConfigError with
-// the name of the element.
+// the name of the element, node or face.
 Warnings validate(Mesh& mesh, const MeshOrigin& origin);
 
 }  // namespace orthodyn

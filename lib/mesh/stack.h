@@ -1,4 +1,4 @@
-// The cells of a layered region: hexahedra and wedges in columns across its thickness.
+// Columns of hexahedra or wedges across the thickness of a layered region.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace orthodyn {
 
-// Smallest cosine between the direction of a stack and the axis of a cell that counts as along it.
+// An axis of a cell is along a direction if the cosine of their angle has at least this magnitude.
 inline constexpr double kAlongStack = 0.7;
 
-// One level: the i-th cells from the bottom of all columns that have n cells. Heights are fractions of the column's
-// height, from 0 at its bottom to 1 at its top.
+// A level: the i-th cell from the bottom of each column with n cells. Heights are fractions of the column height
+// (0 at its bottom, 1 at its top), averaged over the columns.
 struct StackLevel {
   std::vector<int> cells;  // ascending
   double bottom, top;
@@ -20,13 +20,13 @@ struct StackLevel {
 
 struct Stack {
   std::vector<StackLevel> levels;
-  double lowest, highest;  // heights of columns, m
+  double lowest, highest;  // smallest and largest height of a column, m
 };
 
-// The cells of a region in columns along `direction` (a unit vector for each cell). Renumbers their nodes so that the
-// third natural coordinate of each cell grows along its direction. Throws ConfigError if a cell is no quadratic
-// hexahedron or wedge, if none of its axes is within 45 degrees of its direction, or if columns divide their height
-// differently (by more than 2 %).
+// Arranges the cells of a region in columns along `direction` (a unit vector for each cell). Renumbers the nodes of
+// each cell so that its third natural coordinate grows along its direction. Throws ConfigError if a cell is not a
+// quadratic hexahedron or wedge, if none of its axes is along its direction, if cells form closed rings, or if
+// the tops of a level's cells differ by more than 2 % of the column height.
 Stack make_stack(Mesh& mesh, int region, const std::function<Vec3(int cell)>& direction);
 
 }  // namespace orthodyn

@@ -27,12 +27,12 @@ class Session {
 void check(PetscErrorCode code);
 void check_mpi(int code);
 
-// True if `here` is true on any of the ranks. Collective.
+// True if `here` is true on any rank. Collective.
 bool any_rank(MPI_Comm ranks, bool here);
 
 // Throws ConfigError unless `options` is a list of options that a scene may give: those that choose and tune a method.
 // Other options write or read files (-ksp_view :FILE, -..._monitor, -options_file) or wait for the user (-petsc_sleep);
-// whoever starts the program may give them in PETSC_OPTIONS.
+// they may be given in the environment variable PETSC_OPTIONS.
 void require_allowed(const std::string& options);
 
 // A set of options for PETSc objects.

@@ -24,8 +24,7 @@ std::vector<std::vector<int>> cells_of_regions(const Mesh& mesh) {
   return cells;
 }
 
-// The shape of a region's cells. The fields of a region are recovered from elements of one type, so that other regions
-// are refused.
+// The shape of a region's cells. Refuses several shapes: fields are recovered from elements of one type.
 CellShape shape_of_region(const Mesh& mesh, const std::string& region, const std::vector<int>& cells) {
   const auto shape_at = [&](int cell) { return mesh.cells.shape(static_cast<std::size_t>(cell)); };
   const CellShape shape = shape_at(cells.front());

@@ -12,33 +12,33 @@
 namespace orthodyn {
 
 struct ElasticPart {
-  std::string name;     // of the region, or "REGION.ply_2"
-  std::size_t region;   // in the mesh
-  const Region* entry;  // of the scene
+  std::string name;     // "REGION", "REGION.ply_2", or "REGION.ply_2_1" for a part of a ply
+  std::size_t region;   // index in the mesh
+  const Region* entry;  // the region's section in the scene
   const Material* material;
   AxesField axes;
   const ElementType* type;
   std::vector<int> cells;  // ascending
-  double share = 1;        // of a ply in the thickness of its cells
+  double share = 1;        // thickness of the ply relative to its cells; 1 for a region
   double density;          // kg/m^3, the mean over the thickness of its cells
-  std::string ply = {};    // "REGION.ply_2" also for a part of this ply; "" for a region
+  std::string ply = {};    // "REGION.ply_2" for all parts of this ply; "" for a region
 };
 
 struct ElasticParts {
   std::vector<ElasticPart> parts;
-  std::vector<std::unique_ptr<const ElementType>> ply_types;  // parts refer to them
+  std::vector<std::unique_ptr<const ElementType>> ply_types;  // used by `parts`
   std::vector<double> density;                                // of each cell, kg/m^3
 };
 
-// The parts of all regions that have cells. `regions`: the entries of the mesh's regions (assign_regions()). Renumbers
-// the nodes of cells in layered regions (make_stack()). Throws ConfigError for a region with cells of several shapes,
-// and for a layup that the cells cannot have. Scene and regions must outlive the result.
+// The parts of all regions that have cells. `regions`: result of assign_regions(). Renumbers the nodes of cells in
+// layered regions. Throws ConfigError for a region with cells of several shapes, for `integration` without hexahedra of
+// 20 nodes, and like make_stack(). Scene and regions must outlive the result.
 ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>& regions, Mesh& mesh, Warnings& notes);
 
-// Makes the elastic terms. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
+// Adds the elastic terms to `parts`. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
 void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own, FemModel::Parts& parts);
 
-// s, of the region or of the scene.
+// Stiffness-proportional damping (s) of the region, else of the scene, else 0.
 double stiffness_damping(const Scene& scene, const Region& region);
 
 }  // namespace orthodyn

@@ -13,7 +13,7 @@ namespace orthodyn {
 
 struct Ply {
   std::string material;
-  double angle = 0;      // rad, of axis 1 of the material from axis 1 of the region, about axis 3
+  double angle = 0;      // rad, from axis 1 of the region to axis 1 of the material, about axis 3
   double thickness = 0;  // m
 };
 
@@ -25,17 +25,17 @@ struct Value<Ply> {
   static std::string yaml(const Ply& ply);
 };
 
-// The part of a ply in one level of a stack: begin < t < end of the cells' third natural coordinate.
+// The part of a ply in one level of a stack: begin < t < end, t in [-1, 1] the cells' third natural coordinate.
 struct PlyPart {
-  std::size_t ply;
+  std::size_t ply;   // index in the layup
   std::string name;  // "ply_2", or "ply_2_1", "ply_2_2", ... if it has several parts
   std::size_t level;
   double begin, end;
-  double share() const { return (end - begin) / 2; }
+  double share() const { return (end - begin) / 2; }  // of the level's height
 };
 
-// Divides plies among the levels of a stack, by level and then from bottom to top. Thicknesses are scaled to the height
-// of the stack.
+// Divides the plies, scaled to the height of the stack, among its levels. Parts are ordered by level, then from bottom
+// to top.
 std::vector<PlyPart> divide(const std::vector<Ply>& layup, const Stack& stack);
 
 double total_thickness(const std::vector<Ply>& layup);

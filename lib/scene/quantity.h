@@ -1,9 +1,9 @@
 // A quantity of a state, by name:
 //
 //   PROBE.FIELD[.COMPONENT]              a field at a probe's node: tip.displacement.z, tip.nodal_stress_material.11
-//   NAME[.COMPONENT]                     a scalar of the whole body: energy.kinetic, momentum.angular.y
+//   NAME[.COMPONENT]                     a quantity of the whole body: energy.kinetic, momentum.angular.y
 //   [REGION.]FIELD[.COMPONENT].largest   the largest (or .smallest) value of a stress or strain field over the nodes of
-//                                        the body or of a region: von_mises.largest, grip.nodal_stress.xx.smallest
+//                                        the body, a region or a ply: von_mises.largest, grip.nodal_stress.xx.smallest
 #pragma once
 
 #include <functional>
@@ -40,7 +40,7 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
 struct Extreme {
   double value;
   int node;       // -1 if there is no value
-  int term = -1;  // index of the region or ply among several; -1 if there is only one
+  int term = -1;  // index of the elastic term (region or ply); -1 if the model has only one
 };
 using FindExtreme = std::function<Extreme(const ObservedState&)>;
 

@@ -12,18 +12,18 @@
 
 namespace orthodyn {
 
-// A composite section without an *ORIENTATION, as CalculiX writes it, gets the orientation of its first ply. Call this
-// function before regions and axes are computed.
+// Gives composite sections without an *ORIENTATION, as CalculiX writes them, the orientation of their first ply. Call
+// it before regions and axes are computed.
 void complete_composites(AbaqusFile& file);
 
-// The layups of composite regions, from bottom to top along axis 3 of their axes. `axes`: of each cell; empty for the
-// identity. Throws ConfigError for plies that are not stacked along axis 3 in all cells, and for a ply whose
-// orientation is no turn about axis 3.
+// The plies of composite regions, by region, from bottom to top along axis 3. `axes`: of each cell; empty for
+// the identity. Throws ConfigError unless all cells have their plies stacked along axis 3 in the same sense and turned
+// about axis 3 by the same angles.
 std::map<std::string, std::vector<MeshPly>> layups_of_regions(const AbaqusFile& file, AbaqusLookup& lookup,
                                                               const AbaqusRegions& regions,
                                                               const std::vector<Mat3>& axes);
 
-// The material of this name (in capitals) or, with a problem set, one that the file lacks.
+// The material `name` (in capitals). If the file lacks it, the result has a `problem`.
 MeshMaterial abaqus_material(const AbaqusFile& file, const std::string& name, FilePlace section);
 
 // The mean of the corners of a cell, m.

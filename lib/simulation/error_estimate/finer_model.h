@@ -1,4 +1,4 @@
-// A scene's model with finer elements: linear tetrahedra become quadratic, quadratic ones are divided into eight. The
+// A scene's model with finer elements: linear elements become quadratic, quadratic ones are divided into eight. The
 // coarse displacements are a subspace of the fine ones.
 //
 // The mass matrix is consistent. Models distributed over ranks are not supported.

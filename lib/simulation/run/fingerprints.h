@@ -1,5 +1,5 @@
-// Fingerprints of the inputs of a result other than its text: mesh, input files, program and machine. A changed
-// fingerprint makes a stored result invalid.
+// Fingerprints of a result's inputs besides the scene text: mesh, files, program and machine. A result with another
+// fingerprint is outdated.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace orthodyn {
 // Fingerprint of nodes, elements, regions, surfaces and node sets; independent of the file format.
 std::string mesh_fingerprint(const Mesh& mesh);
 
-// Also includes the materials and cell data of the mesh file.
+// Also includes the materials, layups and cell data of the mesh file.
 std::string mesh_fingerprint(const LoadedMesh& loaded);
 
 // Fingerprints of files. A file is read again only if its size or modification time has changed.
@@ -33,11 +33,11 @@ class FileFingerprints {
   std::map<std::filesystem::path, Known> known_;
 };
 
-// Fingerprint of the code: the library file that contains this function, plugins (environment variable
-// ORTHODYN_PLUGINS), and the versions of the libraries.
+// Fingerprint of the code: orthodyn's library files, plugins (environment variable ORTHODYN_PLUGINS), and the versions
+// of other libraries.
 std::string code_fingerprint();
 
-// Fingerprint of the hardware that timings depend on: processor, number of cores, threads of BLAS.
+// Fingerprint of the conditions of timings: machine_json() and the threads of BLAS.
 std::string machine_fingerprint();
 
 }  // namespace orthodyn

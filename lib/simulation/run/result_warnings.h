@@ -8,9 +8,9 @@
 
 namespace orthodyn {
 
-// One sentence for each finding, with its meaning and a remedy: inverted elements, a residual above its tolerance, a
-// coarse mesh, loads that steps may have missed, a large error of linear kinematics, an energy balance that drifts by
-// more than 1 % of the largest energy, a large accumulated integration error, and warnings of the integrator.
+// One sentence for each finding, with its meaning and a remedy: inverted elements, exceeded strains and strengths, a
+// residual above its tolerance, a coarse mesh, loads or peaks that steps may have missed, large errors of linear
+// kinematics or of the integration, an energy drift above 1 %, and warnings of the integrator.
 std::vector<std::string> result_warnings(const RunResult& result);
 
 }  // namespace orthodyn

@@ -30,9 +30,9 @@ struct Setup {
 // The integration task of a scene. Both arguments must outlive it.
 Task task_of(const Scene& scene, const BuiltScene& built);
 
-// Reads, validates and builds; `input` is not changed. `resumes_linear`: see choose_kinematics(). `is_timed`: false if
-// the user gave no time span, so that checks of it are skipped. `ranks`: the ranks that share the model, all of which
-// call this; null for this process alone. Throws ConfigError.
+// Reads and checks a scene, and builds its model and integrator; `input` is not changed. `resumes_linear`: see
+// choose_kinematics(). `is_timed`: false skips the checks of the time span. `ranks`: those that share the model, or
+// null. Collective. Throws ConfigError, or RunError if `start: equilibrium` finds no equilibrium.
 Setup set_up(const Config& input, bool resumes_linear = false, bool is_timed = true, const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn

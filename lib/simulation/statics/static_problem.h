@@ -9,7 +9,7 @@
 namespace orthodyn {
 
 struct StaticProblem {
-  std::unique_ptr<BuiltScene> own;  // model of the path if loads make K unsymmetric; else null
+  std::unique_ptr<BuiltScene> own;  // model with general K, if loads make K unsymmetric; else null
   std::unique_ptr<LoadPath> path;   // from the unloaded shape
   std::unique_ptr<EquilibriumSolver> solver;
   std::unique_ptr<LoadStepper> stepper;
@@ -24,7 +24,7 @@ void require_held(const Scene& scene, const FemModel& model, double t);
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built);
 
 // The unknowns of the unloaded shape: the equilibrium with springs and ground contact only; zero if these do not act on
-// the rest shape. Throws like static_problem().
+// the rest shape. Precondition: the body is held. Throws RunError if it does not settle.
 Vector unloaded_shape(const Scene& scene, const BuiltScene& built);
 
 // The static scene for a dynamic scene at its start time. Supports stand still; `statics` gets its defaults if absent.

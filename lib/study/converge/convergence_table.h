@@ -24,9 +24,9 @@ std::string convergence_csv(const Json& table);
 // The answer of each metric, then for each metric a table and the cost of an error of one per cent.
 std::string convergence_text(const Json& table);
 
-// A metric on the finest mesh that has a value.
+// A metric's value on the finest mesh where it is known.
 struct FinestMesh {
-  double value = 0, mesh_error = 0;  // estimated relative error; NaN if unknown
+  double value = 0, mesh_error = 0;  // mesh_error: estimated, relative; NaN if unknown
   int order = 1;                     // of the elements
 };
 

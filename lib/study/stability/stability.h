@@ -29,7 +29,7 @@ struct Stability {
   std::vector<HardCase> cases;
   std::vector<StabilityIntegrator> integrators;
   Named<Assignments> variants;  // changes of the scenes, by name
-  Limits limits{20, 4e9};
+  Limits limits{20, 4e9};       // s, bytes
   static const Spec<Stability>& spec();
 };
 
@@ -57,8 +57,8 @@ struct StabilityRun {
   Config scene;       // resolved
 };
 
-// All runs, ordered by case, variant, integrator. Options of a scene's own integrator, including rtol, stay if the
-// study's integrator has the same key and does not set it. Throws ConfigError for an invalid scene or one without
+// All runs, ordered by case, variant, integrator. A run keeps the options of the scene's own integrator, including
+// rtol, that the study's integrator also has and does not set. Throws ConfigError for an invalid scene or one without
 // expectations.
 std::vector<StabilityRun> stability_runs(const Stability& stability);
 
