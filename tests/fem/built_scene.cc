@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "lib/config/registry.h"
+#include "lib/core/errors.h"
+#include "lib/linear/solver.h"
 #include "lib/mesh/mesh_source.h"
 
 namespace orthodyn {
@@ -52,6 +54,17 @@ Eigen::MatrixXd BuiltTestScene::matrix(const Weights& w, const Vector& q, const 
   const Eigen::MatrixXd stored = model().pattern().matrix(values.data());
   if (!model().pattern().symmetric) return stored;
   return stored.selfadjointView<Eigen::Lower>();
+}
+
+Vector linear_static(const BuiltTestScene& s) {
+  Linearization at;
+  s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
+  const auto solver = make_linear_solver("cholesky");
+  solver->analyze(s.model().pattern());
+  if (solver->factor(at.stiffness.data()) != FactorStatus::ok) throw RunError("the stiffness is singular");
+  Vector u(s.size());
+  solver->solve(s.force(s.zero()), u);
+  return u;
 }
 
 NodalVector BuiltTestScene::nodal(const Vector& q) const {

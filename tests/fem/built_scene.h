@@ -48,6 +48,9 @@ struct BuiltTestScene {
   BuiltScene built;
 };
 
+// The free coordinates of the equilibrium under the loads at t = 0, linearised about rest.
+Vector linear_static(const BuiltTestScene& s);
+
 Vector random_dofs(Random& random, Eigen::Index n, double amplitude);
 
 // Axes turned by -0.7 rad about (1, 2, 3).

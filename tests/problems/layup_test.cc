@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/linear/solver.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
@@ -197,17 +196,6 @@ TEST(Plies, StayWhereTheyAreInFinerElements) {
   const Vector still = Vector::Zero(finer.model().num_dofs());
   const double energy = finer.model().evaluate("energy.elastic", {0, finer.lift(q), still})[0];
   EXPECT_NEAR(energy, s.potential(q), 1e-13 * energy);
-}
-
-Vector linear_static(const BuiltTestScene& s) {
-  Linearization at;
-  s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
-  const auto solver = make_linear_solver("cholesky");
-  solver->analyze(s.model().pattern());
-  EXPECT_EQ(solver->factor(at.stiffness.data()), FactorStatus::ok);
-  Vector u(s.size());
-  solver->solve(s.force(s.zero()), u);
-  return u;
 }
 
 // Stiffnesses of a strip of plies without Poisson's effect, per width, about the bottom: the integrals of E, E z, E

@@ -8,22 +8,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "lib/linear/solver.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::statics_test {
 namespace {
-
-Vector linear_static(const BuiltTestScene& s) {
-  Linearization at;
-  s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
-  const auto solver = make_linear_solver("cholesky");
-  solver->analyze(s.model().pattern());
-  EXPECT_EQ(solver->factor(at.stiffness.data()), FactorStatus::ok);
-  Vector u(s.size());
-  solver->solve(s.force(s.zero()), u);
-  return u;
-}
 
 // A block in tension along x with fibres at -theta from x, supported statically determinately: the stress is uniform,
 // and linear elements are exact.

@@ -89,7 +89,8 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
         term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
         order == 1 ? "linear tetrahedra" : topology(term->type().shape()).plural,
         by_finer_elements ? "two or three times" : "many times",
-        order == 1   ? "Use mesh.order: 2"
+        order == 1                                           ? "Use mesh.order: 2"
+        : volumetric && term->type().has_mixed_formulation() ? "Use formulation: mixed in this region"
         : volumetric ? "Use a smaller nu if this one is not intended, finer cells"
                      : "Use finer cells");
   }

@@ -53,8 +53,8 @@ std::string accumulation_sentence(const MotionResult& motion) {
 
 std::string mesh_sentence(const ModelSummary& model, double error) {
   return fmt::format(
-      "the mesh is coarse for this motion: its error is about {:.2g} of the elastic energy. Deflections are too small "
-      "and frequencies too high. {}, and compare (the frame field mesh_error shows where)",
+      "the mesh is coarse for this motion: its error is about {:.2g} of the elastic energy. Deflections are mostly "
+      "too small and frequencies too high. {}, and compare (the frame field mesh_error shows where)",
       error, finer_mesh(model.order));
 }
 
