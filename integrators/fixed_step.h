@@ -18,9 +18,9 @@ struct FixedStep {
     return spec.key("step", &FixedStep::step, sentence, {.unit = "s", .range = kPositive})
         .check([](const T& options, const Config& config) {
           if (!options.step) return;
-          if (options.h0) config.at("h0").fail("has no meaning with a fixed step");
-          if (options.h_max) config.at("h_max").fail("has no meaning with a fixed step");
-          if (options.h_min > 0) config.at("h_min").fail("has no meaning with a fixed step");
+          if (options.h0) config.at("h0").fail("is not used with a fixed step");
+          if (options.h_max) config.at("h_max").fail("is not used with a fixed step");
+          if (options.h_min > 0) config.at("h_min").fail("is not used with a fixed step");
         });
   }
 };

@@ -49,7 +49,7 @@ void require_linear_solver(const SolverChoice& choice, SolverPaths paths, const 
   const auto& all = solver_registry();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     if (all.contains(name))
-      place.fail("'" + name + "' belongs to SUNDIALS' integrators; this integrator takes one of " + join(names));
+      place.fail("'" + name + "' is for SUNDIALS' integrators only; this integrator takes one of " + join(names));
     place.fail(expected_one_of(names, name), InputFault::form);
   }
   const SolverKind& kind = all.at(name);

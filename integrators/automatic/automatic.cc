@@ -109,7 +109,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
 
   void check_method(const Config& config) const {
     if (modes && method != "modal")
-      config.at("modes").fail("has a meaning only with `method: modal`; remove it, or take integrator.type: modal");
+      config.at("modes").fail("is used with `method: modal` only; remove it, or set integrator.type: modal");
     if (!method) return;
     auto names = Registry<IntegratorChoice>::names();
     std::erase(names, "auto");

@@ -125,12 +125,10 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
   if (rtol <= 1e-4)
     return implicit("arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations");
   if (const double error = phase_error_of_order_two(cost, rtol); error > kMostPhaseError * rtol)
-    return implicit(
-        "arkode_dirk",
-        fmt::format(
-            "hardly damped and {:.2g} periods long, in which a method of order 2 would be off by {:.1g} of the motion",
-            cost.known_phase / (2 * std::numbers::pi), error));
-  return implicit("tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest");
+    return implicit("arkode_dirk", fmt::format("hardly damped and {:.2g} periods long, over which a method of order 2 "
+                                               "would have an error of {:.1g} of the motion",
+                                               cost.known_phase / (2 * std::numbers::pi), error));
+  return implicit("tr_bdf2", "hardly damped; for moderate accuracy an L-stable method of order 2 is cheapest");
 }
 
 }  // namespace orthodyn

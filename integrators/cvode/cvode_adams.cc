@@ -26,8 +26,8 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
         Options::spec_for<C>()
             .key("max_order", &C::max_order, "Highest order.", {.range = {1, 12}})
             .key("nonlinear", &C::nonlinear,
-                 "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix but steps below "
-                 "one over the highest frequency.")
+                 "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix, but needs steps "
+                 "below 1/omega_max.")
             .key("anderson", &C::anderson,
                  "Earlier iterates that accelerate the fixed-point iteration (Anderson 1965).", {.range = {0, 10}})
             .check([](const C& options, const Config& config) { options.check_iteration_keys(config); });
@@ -51,12 +51,12 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
  private:
   void check_iteration_keys(const Config& config) const {
     if (nonlinear == StepIteration::newton) {
-      if (anderson > 0) config.at("anderson").fail("has no meaning with nonlinear: newton; remove it");
+      if (anderson > 0) config.at("anderson").fail("is not used with nonlinear: newton; remove it");
       return;
     }
     if (linear_solver != Options().linear_solver)
-      config.at("linear_solver").fail("has no meaning with nonlinear: fixed_point; remove it");
-    if (gauss_newton) config.at("gauss_newton").fail("has no meaning with nonlinear: fixed_point; remove it");
+      config.at("linear_solver").fail("is not used with nonlinear: fixed_point; remove it");
+    if (gauss_newton) config.at("gauss_newton").fail("is not used with nonlinear: fixed_point; remove it");
   }
 };
 

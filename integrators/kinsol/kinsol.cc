@@ -30,10 +30,9 @@ Vector unit_random_vector(const Model& model) {
 std::string failure_message(int flag, const KinsolOptions& options, bool stiffness_is_exact,
                             const CallbackContext& context) {
   const std::string cause = context.recoverable_cause.empty() ? "" : " (" + context.recoverable_cause + ")";
-  const std::string approximate = stiffness_is_exact
-                                      ? ""
-                                      : ", by a stiffness that is approximate: take elasticity.warped_tangent: "
-                                        "unsymmetric and statics.solver.linear_solver: klu";
+  const std::string approximate = stiffness_is_exact ? ""
+                                                     : "; the stiffness is approximate: set elasticity.warped_tangent: "
+                                                       "unsymmetric and statics.solver.linear_solver: klu";
   switch (flag) {
     case KIN_MAXITER_REACHED:
       return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations){}",
@@ -43,7 +42,7 @@ std::string failure_message(int flag, const KinsolOptions& options, bool stiffne
     case KIN_FIRST_SYSFUNC_ERR:
     case KIN_SYSFUNC_FAIL:
     case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
-    case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
+    case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small to reduce the residual" + cause;
     default: return "KINSOL says: " + context.message;
   }
 }
@@ -159,7 +158,7 @@ class Kinsol : public EquilibriumSolver {
   static Kinsol& self(void* user) { return *static_cast<Kinsol*>(user); }
 
   void require(int flag) const {
-    if (flag < 0) throw RunError("kinsol refused its set-up: " + callback_context_.message);
+    if (flag < 0) throw RunError("kinsol could not be set up: " + callback_context_.message);
   }
 
   // Left side of the plane's equation at x.

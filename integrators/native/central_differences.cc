@@ -136,7 +136,7 @@ class CentralDifferences : public ExplicitStep {
 
   std::string critical_text(double step) const {
     return fmt::format("critical {:.6g} s by Lanczos{}", step,
-                       monitor_.expects_contact() ? ", all contact closed" : "");
+                       monitor_.expects_contact() ? ", with all contacts closed" : "");
   }
 
   // The critical step by element frequencies is cheaper to compute and shorter; it ignores damping and deformation.
@@ -222,7 +222,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
             .key("max_steps", &C::max_steps, "Steps after which the run gives up.", {.range = {1}})
             .check([](const C& options, const Config& config) {
               if (options.step.value && options.safety != CentralOptions{}.safety)
-                config.at("safety").fail("has no meaning with a fixed step; remove it, or set `step: auto`");
+                config.at("safety").fail("is not used with a fixed step; remove it, or set `step: auto`");
             });
     return s;
   }

@@ -157,8 +157,8 @@ class Modal : public Integrator {
     const double share = std::max(truncation_.displacement_share(), truncation_.velocity_share());
     if (share <= kMisfit) return {};
     return {
-        fmt::format("the modes left out would have had about {:.2g} of the motion and {:.2g} of its velocity. Keep "
-                    "more modes (integrator.modes, now {}; integrator.below), or use another integrator",
+        fmt::format("the modes left out would have contributed about {:.2g} of the motion and {:.2g} of its velocity. "
+                    "Keep more modes (integrator.modes, now {}; integrator.below), or use another integrator",
                     truncation_.displacement_share(), truncation_.velocity_share(), basis_.size())};
   }
 
@@ -175,11 +175,11 @@ class Modal : public Integrator {
   std::string kept_text() const {
     const double highest = std::sqrt(basis_.lambda()[basis_.size() - 1]) / (2 * std::numbers::pi);
     std::string text = fmt::format("{} modes up to {:.6g} Hz", basis_.size(), highest);
-    if (basis_.is_complete()) return text + ", all there are";
+    if (basis_.is_complete()) return text + ", all modes of the model";
     const bool begun = statistics_.steps > 0;
     const double share = begun ? truncation_.displacement_share() : share_at_start_;
     if (!begun && share == 0) return text;  // unknown until the loads act
-    text += fmt::format("; what is left out{} is about {:.2g} of the motion", begun ? "" : " at the start", share);
+    text += fmt::format("; the part left out{} is about {:.2g} of the motion", begun ? "" : " at the start", share);
     return share > options_.rtol ? text + ", more than rtol (keep more modes to reduce it)" : text;
   }
 
@@ -240,7 +240,7 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
                  "Modes kept and the share of the motion that they leave out; written by the program.")
             .check([](const C& options, const Config& config) {
               if (options.modes && options.below)
-                config.at("below").fail("has no meaning beside `modes`; remove one of the two");
+                config.at("below").fail("cannot be combined with `modes`; remove one of the two");
             });
     return s;
   }

@@ -105,10 +105,8 @@ void ModalBasis::find_modes(const ModeLimit& limit) {
         "the state of rest is not stable: modal needs a stiffness without negative eigenvalues; use another "
         "integrator");
   if (!complete_ && next_lambda_ == 0)
-    throw ConfigError(
-        fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing holds (6); ask "
-                    "for more modes",
-                    lambda_.size()));
+    throw ConfigError(fmt::format(
+        "{} modes do not include all motions without stiffness (a free body has 6); keep more modes", lambda_.size()));
 }
 
 // Finds `count` modes, and the eigenvalue of the first mode left out.

@@ -46,8 +46,8 @@ Spec<T> LinearOptions::spec_for() {
 template <class T>
 Spec<T> NewtonOptions::spec_for() {
   auto spec = LinearOptions::spec_for<T>().key("newton", &NewtonOptions::newton,
-                                               "When the tangent is recomputed: when this costs less than the "
-                                               "iterations of an old one, at each step, or at each iteration.");
+                                               "When the tangent is recomputed: when that costs less than further "
+                                               "iterations with the old one, at each step, or at each iteration.");
   NewtonLimits::add_to(spec, "rtol, with a fixed step too", "stage");
   return spec;
 }

@@ -18,7 +18,7 @@ class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions
             .check([](const C& c, const Config& config) {
               if (2 * c.beta < c.gamma)
                 config.at("beta").fail("must be at least gamma / 2 = " + number_text(c.gamma / 2) +
-                                       ": below, stiff modes grow");
+                                       "; with smaller values, stiff modes grow");
             });
     return s;
   }

@@ -17,7 +17,7 @@ template <class T>
 Spec<T> bdf_spec() {
   return Options::spec_for<T>().key(
       "max_order", &T::max_order,
-      "Highest order; default 5 where the motion is well damped, by a ratio above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
+      "Highest order; default 5 if the damping ratio of the motion is above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
       {.range = {1, 5}});
 }
 

@@ -12,7 +12,7 @@ namespace {
 const bool klu_full_registered =
     solver_registry()
         .emplace("klu_full", SolverKind{"SUNDIALS' sparse matrix and KLU on the full 2n x 2n system: the textbook "
-                                        "path, and the baseline; symmetric or not.",
+                                        "method, for comparison; symmetric or not.",
                                         true, nullptr})
         .second;
 

@@ -27,7 +27,7 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& lib
       library_(library) {
   if (!implicit) return;
   if (!model.traits().smooth && options.max_newton_iterations < 2)
-    throw ConfigError("max_newton_iterations: must be at least 2 if the body may touch something, found 1");
+    throw ConfigError("max_newton_iterations: must be at least 2 for models with contact, found 1");
   newton_system_.emplace(model_, options_, scales_, statistics_, callback_context_);
   if (library.set_factor_interval) renewal_.emplace(renewal_cost(model_));
 }
@@ -155,7 +155,7 @@ Decisions SundialsIntegrator::decisions() const {
 }
 
 void SundialsIntegrator::require(int flag) const {
-  if (flag < 0) throw RunError(name_ + " refused its set-up: " + callback_context_.message);
+  if (flag < 0) throw RunError(name_ + " could not be set up: " + callback_context_.message);
 }
 
 double SundialsIntegrator::current_step() const {
@@ -207,7 +207,8 @@ void SundialsIntegrator::fail(int flag) {
                      reason);
     case Reason::diverged:
       throw RunError(
-          position() + "the motion has outgrown its tolerance, rtol times the scales, which is below its round-off; " +
+          position() +
+              "the motion has grown so large that its round-off exceeds the tolerance (rtol times the scales); " +
               (adaptive() ? "raise integrator.rtol or the scales" : "lower integrator.step"),
           reason);
     case Reason::step_too_small: throw RunError(position() + "the time left is below the resolution of time", reason);

@@ -62,7 +62,7 @@ Values stress_stiffness(const Model& structure, double t, const Vector& unloaded
 BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, double t, int count) {
   const Pattern& pattern = model.pattern();
   if (!pattern.symmetric)
-    throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
+    throw ConfigError("buckling needs a symmetric tangent; remove elasticity.warped_tangent: unsymmetric");
   const auto structure = without_loads(model), loads = model.only(model.load_parts().value());
   const Values K = stiffness_at(*structure, t, unloaded, TangentKind::exact);
   const auto solver = make_linear_solver("cholesky", pattern);
@@ -70,7 +70,7 @@ BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, doub
     throw RunError("the stiffness without loads is not positive definite: the body is not held, or unstable");
   Vector f(unloaded.size()), u(unloaded.size());
   loads->force(t, unloaded, Vector::Zero(unloaded.size()), f);
-  if (f.isZero(0)) throw RunError("nothing loads the body: it has no critical load factor");
+  if (f.isZero(0)) throw RunError("no load acts on the body, so it has no critical load factor");
   solver->solve(f, u);
   // Scales u by `times`, so that the central difference is accurate for loads of any size.
   const double size = bounding_box(model.parts().mesh).size().maxCoeff();

@@ -35,8 +35,7 @@ double Mode::frequency() const { return angular_frequency() / (2 * std::numbers:
 
 Modes natural_modes(const Model& model, const State& about, int count) {
   if (!model.pattern().symmetric)
-    throw ConfigError("elasticity",
-                      "modes need a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
+    throw ConfigError("elasticity", "modes need a symmetric tangent; remove elasticity.warped_tangent: unsymmetric");
   const Pattern& pattern = model.pattern();
   const auto unloaded = about.load_factor == 0 ? without_loads(model) : nullptr;
   const Model& acting = unloaded ? *unloaded : model;

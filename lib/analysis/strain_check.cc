@@ -59,7 +59,7 @@ Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& lim
 std::string warning(const ElasticTerm& term, const Excess& e, const std::string& cause) {
   const std::string means =
       e.limit.kind == LimitKind::flat
-          ? fmt::format("a bar under tension along this axis has no thickness left ({})", describe(e.limit, e.axis))
+          ? fmt::format("a bar stretched along this axis would have no thickness ({})", describe(e.limit, e.axis))
           : fmt::format(
                 "the law is no longer elliptic ({}): deformation localises in single elements and depends on the mesh",
                 describe(e.limit, e.axis));

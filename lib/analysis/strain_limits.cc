@@ -163,7 +163,7 @@ std::string describe(const StrainLimit& limit, int axis) {
     case LimitKind::kink: return fmt::format("kinks in the plane {}-{}", low, high);
     case LimitKind::slide: return fmt::format("slides in the plane {}-{}", low, high);
     case LimitKind::flat: break;
-    case LimitKind::oblique: return "waves of some direction stop travelling";
+    case LimitKind::oblique: return "waves in some direction cannot propagate";
   }
   return fmt::format("is flat along {}", limit.plane + 1);
 }

@@ -97,12 +97,12 @@ const std::vector<DerivedField>& derived_fields() {
       {"principal_strain", "1", "Principal strains, the largest first.", "strain", three, false, principal},
       {"nodal_det_f", "1", "Volume ratio det F at the nodes.", "strain", {}, false, volume_ratio},
       exposure<max_stress_exposure>(
-          "max_stress", "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails."),
-      exposure<tsai_wu_exposure>(
-          "tsai_wu",
-          "Exposure by Tsai and Wu: reciprocal of the factor by which the stress can grow until failure; 1 fails."),
+          "max_stress", "Exposure by maximum stress: the largest ratio of a component to its strength; failure at 1."),
+      exposure<tsai_wu_exposure>("tsai_wu",
+                                 "Exposure by Tsai and Wu: reciprocal of the factor by which the stress can grow until "
+                                 "failure; failure at 1."),
       exposure<hashin_exposure>(
-          "hashin", "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.")};
+          "hashin", "Exposure by Hashin, the largest of fibre and matrix in tension and compression; failure at 1.")};
   return all;
 }
 

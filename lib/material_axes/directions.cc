@@ -38,8 +38,7 @@ class Directions : public AxesSource {
     if (!are_independent(first_, second_))
       config.fail("'first' and 'second' are zero or parallel; give two different directions");
     if (!third_ && repair_ != AxesRepair::refuse)
-      config.at("repair").fail(
-          "has nothing to repair without 'third': axis 2 is the part of 'second' normal to axis 1");
+      config.at("repair").fail("is used with 'third' only: axis 2 is the part of 'second' normal to axis 1");
     if (third_) check_axes(columns(), repair_, [&](const std::string& sentence) { config.fail(sentence); });
   }
 

@@ -19,8 +19,8 @@ namespace {
 
 void sort_by_tag(MeshDraft& draft) {
   std::vector<FileNode>& nodes = draft.nodes;
-  if (nodes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    draft.fail({}, "{} nodes are too many", nodes.size());
+  constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (nodes.size() > kMax) draft.fail({}, "{} nodes; at most {} can be numbered", nodes.size(), kMax);
   const auto before = [](const FileNode& a, const FileNode& b) { return a.tag < b.tag; };
   if (!std::is_sorted(nodes.begin(), nodes.end(), before)) std::stable_sort(nodes.begin(), nodes.end(), before);
   const auto same = std::adjacent_find(nodes.begin(), nodes.end(),
@@ -119,8 +119,8 @@ void check_diagonals(const MeshDraft& draft) {
       const FileCell* const tet = tet_at(draft, faces, {quad[1], quad[3], quad[third]});
       if (!tet) continue;
       draft.fail(tet->place,
-                 "element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the other "
-                 "diagonal, from node {} to {}; mesh with pyramids between them",
+                 "element {}: one of its triangles lies on a quadrilateral of element {} ({}), which is divided along "
+                 "the other diagonal, from node {} to {}; mesh with pyramids between them",
                  tet->tag, cell.tag, draft.where(cell.place), quad[0], quad[2]);
     }
   });

@@ -196,9 +196,8 @@ void check_matching_faces(const Mesh& mesh, const std::vector<MeshFace>& faces, 
       const auto [first, end] = find_faces(faces, half);
       if (first == end) continue;
       refuse(origin.cell(faces[first].cell),
-             "a triangle of it lies on a quadrilateral of {}: the two deform differently; set `split: true` (convert: "
-             "--split), "
-             "so that all elements become tetrahedra, or mesh without this contact",
+             "one of its triangles lies on a quadrilateral of {}, whose displacements do not match; set `split: true` "
+             "(convert: --split), so that all elements become tetrahedra, or mesh without this contact",
              origin.cell(quad.cell));
     }
   }

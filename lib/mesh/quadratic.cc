@@ -87,9 +87,8 @@ void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
                 origin.node(middle), origin.node(ends.first), origin.node(ends.second)));
       throw ConfigError(
           origin.cell(e),
-          fmt::format("{} is the node within a face or element, but another element uses it elsewhere, or "
-                      "has another node within this face; elements must share all nodes of a common "
-                      "face: remesh",
+          fmt::format("{} is the middle node of a face or element, but another element uses it at another place, or "
+                      "has another node within this face; elements must share all nodes of a common face: remesh",
                       origin.node(middle)));
     }
   }

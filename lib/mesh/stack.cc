@@ -91,10 +91,10 @@ void turn_along(Mesh& mesh, int cell, const Vec3& direction) {
                                           "`elements: hexahedra`; a file of linear ones: `order: 2`)",
                                           region, topology(mesh.cells.shape(at(cell))).plural));
   if (!is_turned)
-    throw ConfigError("mesh", fmt::format("region '{}': no side of cell {} is along axis 3 of the region's axes, along "
-                                          "which the plies are stacked; set `axes` so that axis 3 goes through the "
-                                          "thickness",
-                                          region, cell));
+    throw ConfigError("mesh",
+                      fmt::format("region '{}': no axis of cell {} is within about 45 degrees of axis 3 of the region, "
+                                  "the stacking direction; set `axes` so that axis 3 goes through the thickness",
+                                  region, cell));
 }
 
 FaceCorners sorted(std::span<const int> corners) {
@@ -137,7 +137,8 @@ Stack make_stack(Mesh& mesh, int region, const std::function<Vec3(int cell)>& di
   const auto all = columns(mesh, cells);
   std::size_t in_columns = 0;
   for (const auto& column : all) in_columns += column.size();
-  if (in_columns != cells.size()) refuse("its cells form rings along axis 3 of its axes");
+  if (in_columns != cells.size())
+    refuse("its cells form closed rings along axis 3 of the region, so no ply has a bottom");
 
   // Levels by the number of cells in a column and the place in it.
   struct Sums {

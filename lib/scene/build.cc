@@ -150,7 +150,7 @@ void require_mass(double mass) {
   if (!std::isnormal(mass))
     throw ConfigError(
         "mesh",
-        fmt::format("its mass is {:.3g} kg, which cannot be computed with; check density and unit of length", mass));
+        fmt::format("its mass is {:.3g} kg, outside the range of numbers; check density and unit of length", mass));
 }
 
 // Several ranks support lumped masses only.

@@ -43,8 +43,7 @@ const ElementType& type_of_region(const Region& region, CellShape shape, const s
   if (shape != CellShape::hex20) {
     if (region.integration != Integration::automatic)
       region.origin.fail(
-          fmt::format("integration: only hexahedra of 20 nodes have a choice, but the region has {}; "
-                      "remove it",
+          fmt::format("integration: can be chosen for hexahedra of 20 nodes only, but the region has {}; remove it",
                       topology(shape).plural));
     return element_type(shape);
   }
@@ -59,11 +58,11 @@ const ElementType& type_of_region(const Region& region, CellShape shape, const s
 bool is_mixed(const Scene& scene, const Region& region, const Material& material, const ElementType& type) {
   if (region.formulation == Formulation::displacement) return false;
   const std::string obstacle = !type.has_mixed_formulation()
-                                   ? fmt::format("{} have none; set mesh.order: 2", topology(type.shape()).plural)
-                               : elasticity_of(scene, region).is_warped() ? "the warped force has none"
+                                   ? fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural)
+                               : elasticity_of(scene, region).is_warped() ? "with elasticity.corotation: warped"
                                                                           : "";
   if (region.formulation == Formulation::mixed && !obstacle.empty())
-    region.origin.fail("formulation: mixed is not available: " + obstacle);
+    region.origin.fail("formulation: mixed is not available " + obstacle);
   return obstacle.empty() &&
          (region.formulation == Formulation::mixed || is_nearly_incompressible(voigt(material.stiffness())));
 }
@@ -80,8 +79,8 @@ void note_thickness(const std::string& region, const Region& entry, const Stack&
   const double total = total_thickness(entry.layup);
   if (stack.lowest >= (1 - kDiffers) * total && stack.highest <= (1 + kDiffers) * total) return;
   notes.push_back(fmt::format(
-      "{}: the plies of region '{}' are {:.4g} m thick together, but along axis 3 of its axes its cells are {}; the "
-      "plies are scaled to the cells. Check the unit of the thicknesses, and that axis 3 goes through the thickness",
+      "{}: the plies of region '{}' have a total thickness of {:.4g} m, but its cells along axis 3 are {}; the plies "
+      "are scaled to the cells. Check the unit of the thicknesses, and that axis 3 goes through the thickness",
       entry.origin.where, region, total,
       stack.highest > (1 + kDiffers) * stack.lowest
           ? fmt::format("{:.4g} to {:.4g} m thick", stack.lowest, stack.highest)

@@ -43,9 +43,9 @@ const Spec<Region>& Region::spec() {
                                  {.unit = "s", .range = kNonNegative})
                             .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.")
                             .key("integration", &Region::integration,
-                                 "Of hexahedra of 20 nodes. reduced: 8 points, accurate for thin bodies. full: 14 "
-                                 "points, for rows that are one cell wide and high, which have shapes without "
-                                 "stiffness (hourglass) with 8. auto: full if the region has such rows.")
+                                 "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
+                                 "bodies. full: 14 points, for rows that are one cell wide and high, which have shapes "
+                                 "without stiffness (hourglass) with 8. auto: full if the region has such rows.")
                             .key("formulation", &Region::formulation,
                                  "mixed: with a separate pressure in each element, accurate for nearly incompressible "
                                  "materials, whose stresses are wrong with displacements alone; not for linear "

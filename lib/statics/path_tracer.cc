@@ -74,7 +74,7 @@ std::optional<PathTracer::PathState> PathTracer::advance_by(double ds) {
   const PathPoint guess = next.point;
   attempt_ = solver_.solve(current_.point, next.point, plane);
   if (!attempt_.found) return std::nullopt;
-  if (distance(next.point, guess) > ds) return fail("Newton's corrections led far away");
+  if (distance(next.point, guess) > ds) return fail("Newton's method converged to a distant equilibrium");
   if (!complete(next)) return std::nullopt;
   double turn = product(next.tangent, t);
   if (turn < 0) {
@@ -102,7 +102,7 @@ std::optional<PathTracer::PathState> PathTracer::branch_at(const Vector& shift) 
   const PathPoint guess = next.point;
   attempt_ = solver_.solve(current_.point, next.point, {Vector(shift / space_.dot(shift, shift)), 0});
   if (!attempt_.found) return std::nullopt;
-  if (distance(next.point, guess) > distance(guess)) return fail("Newton's corrections led far away");
+  if (distance(next.point, guess) > distance(guess)) return fail("Newton's method converged to a distant equilibrium");
   if (!complete(next)) return std::nullopt;
   if (product(next.tangent, difference(next.point, current_.point)) < 0) reverse(next.tangent);
   return next.point.lambda > 1 && next.tangent.lambda > 0 ? corrected_to_full_load(std::move(next)) : next;

@@ -250,7 +250,7 @@ TEST(CentralDifferences, RefuseASafetyBesideAFixedStep) {
     FAIL() << "nothing was thrown";
   } catch (const ConfigError& e) {
     const std::string message = e.what();
-    EXPECT_NE(message.find("safety: has no meaning with a fixed step"), std::string::npos) << message;
+    EXPECT_NE(message.find("safety: is not used with a fixed step"), std::string::npos) << message;
   }
 }
 

@@ -76,7 +76,7 @@ TEST(Directions, InOnePlaneAreRefusedEvenIfRepairIsAllowed) {
 }
 
 TEST(Directions, RefuseARepairOfNothing) {
-  EXPECT_TRUE(holds(axes_refusal("{type: directions, repair: orthonormalise}"), "nothing to repair"));
+  EXPECT_TRUE(holds(axes_refusal("{type: directions, repair: orthonormalise}"), "repair: is used with 'third' only"));
 }
 
 // Axes 1 and 2 enclose 90 - 2a degrees; the nearest rotation rotates both by a.

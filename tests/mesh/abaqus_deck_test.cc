@@ -254,9 +254,10 @@ TEST(AbaqusDeck, DistributionsThatDoNotSayTheAxesAreRefused) {
   const std::string use = "*ORIENTATION, NAME=WOOD\nG\n" + kSection;
   EXPECT_CONTAINS(refusal(kDeck + use), "no *DISTRIBUTION \"G\"");
   EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G\n2, 1, 0, 0, 0, 1, 0\n" + use),
-                  "element 1: its distribution has no row for it, and no default row");
-  EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G, LOCATION=NODE\n2, 1, 0, 0, 0, 1, 0\n" + use),
-                  "distribution \"G\" is not of two points (COORD3D, COORD3D) by element");
+                  "element 1: its distribution has neither a row for this element nor a default row");
+  EXPECT_CONTAINS(
+      refusal(kDeck + "*DISTRIBUTION, NAME=G, LOCATION=NODE\n2, 1, 0, 0, 0, 1, 0\n" + use),
+      "distribution \"G\" does not give two points (COORD3D, COORD3D) by element, which orientation \"WOOD\" needs");
   EXPECT_CONTAINS(refusal(kDeck + "*DISTRIBUTION, NAME=G\n2, 1, 0, 0, 0, 1, 0, 7\n" + use), "7 values; a row of");
 }
 

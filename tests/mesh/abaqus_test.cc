@@ -105,7 +105,7 @@ TEST(Abaqus, TwoNamesOfTheSameElementsAreNoLoss) {
 TEST(Abaqus, SaysWhichSetsAreNoRegionsBesideSections) {
   const auto warnings = load(kDeck + "*Elset, elset=_internal\n1\n*Solid Section, elset=Body\n").warnings;
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_CONTAINS(warnings[1], "element sets without a *SOLID SECTION are no regions: far (1 elements)");
+  EXPECT_CONTAINS(warnings[1], "element sets without a *SOLID SECTION do not become regions: far (1 elements)");
 }
 
 const std::string kSections = "*Solid Section, elset=Body\n*Solid Section, elset=far, orientation=Grain\n";

@@ -343,9 +343,10 @@ TEST(SplitCells, ATetOnAQuadrilateralMustFitItsDiagonal) {
   draft.cells[1].nodes = {4, 5, 6, 8};
   EXPECT_EQ(build_mesh(draft).mesh.cells.size(), 7u);
   draft.cells[1].nodes = {4, 5, 7, 8};
-  EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }),
-                  "mixed.msh:13: element 71: a tetrahedron on a quadrilateral of element 70 (mixed.msh:12), which is "
-                  "cut by the other diagonal, from node 4 to 6; mesh with pyramids between them");
+  EXPECT_CONTAINS(
+      refusal_of([&] { build_mesh(draft); }),
+      "mixed.msh:13: element 71: one of its triangles lies on a quadrilateral of element 70 (mixed.msh:12), "
+      "which is divided along the other diagonal, from node 4 to 6; mesh with pyramids between them");
   draft.cells[0].nodes[6] = 7;  // a collapsed face is no quadrilateral
   EXPECT_EQ(build_mesh(draft).mesh.cells.size(), 5u);
 }

@@ -247,7 +247,7 @@ TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   EXPECT_CONTAINS(refused(replaced(good, "CELLS 1 5", "CELLS 2 5")), "5 entries are too few for 2 cells");
   EXPECT_CONTAINS(refused(replaced(good, "POINTS 4", "POINTS 5")),
                   "body.vtk:7: expected a number (a finite number), found \"CELLS\"");
-  EXPECT_CONTAINS(refused(good.substr(0, good.find("CELL_TYPES"))), "0 types and 1 offsets");
+  EXPECT_CONTAINS(refused(good.substr(0, good.find("CELL_TYPES"))), "0 cell types, but 1 cell offsets");
   EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n42\n")), "polyhedron");
 }
 

@@ -76,7 +76,7 @@ TEST_F(Resume, ARunThatFilledAWholeDiskGoesOnWhenThereIsRoom) {
   ASSERT_EQ(enlarged.exit_code, 0);
   EXPECT_EQ(full.exit_code, 3) << full.output;
   EXPECT_NE(full.output.find("No space left"), std::string::npos) << full.output;
-  EXPECT_EQ(full.output.find("no checkpoint"), std::string::npos) << full.output;
+  EXPECT_EQ(full.output.find("could not be saved"), std::string::npos) << full.output;
   EXPECT_TRUE(completed) << result.output;
 }
 

@@ -112,9 +112,9 @@ vary: {materials.soft.density: [1000, 1100]}
 quantities: {far: {quantity: tip.displacement.z}}
 )");
   const auto result = orthodyn("sweep s.yaml --no-report");
-  const auto first = result.output.find("nothing vibrates");
+  const auto first = result.output.find("creeps back without vibrating");
   EXPECT_NE(first, std::string::npos) << result.output;
-  EXPECT_EQ(result.output.find("nothing vibrates", first + 1), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("creeps back without vibrating", first + 1), std::string::npos) << result.output;
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ TEST(SceneChanges, AKeyThatComesOrGoesIsAChange) {
 
 // Round-off, such as by another number of threads, changes these explanations.
 TEST(SceneChanges, WordsOfTheProgramAreNone) {
-  EXPECT_EQ(changes("integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 3e-16}",
-                    "integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 4e-16}"),
+  EXPECT_EQ(changes("integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; the part left out is about 3e-16}",
+                    "integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; the part left out is about 4e-16}"),
             Paths{});
   EXPECT_EQ(changes("integrator: {type: auto, because: it is light}", "integrator: {type: auto, because: it is dear}"),
             Paths{});

@@ -345,7 +345,7 @@ TEST(PathTracer, FindsAnEquilibriumAsideUnlessItIsFarAway) {
   Analysis stiff(bar, {});
   PathTracer tracer(stiff.path, *stiff.solver_);
   EXPECT_FALSE(tracer.branch_at(shift));
-  EXPECT_EQ(tracer.last_attempt().failure_reason, "Newton's corrections led far away");
+  EXPECT_EQ(tracer.last_attempt().failure_reason, "Newton's method converged to a distant equilibrium");
 }
 
 TEST(LoadStepper, GivesUpAfterTheStepsAllowed) {

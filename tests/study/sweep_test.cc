@@ -361,7 +361,8 @@ TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
       if (command == kind) continue;
       const auto refused = orthodyn(command + " " + kind + ".yaml");
       EXPECT_EQ(refused.exit_code, 2);
-      EXPECT_NE(refused.output.find("this is " + what + ": orthodyn " + kind + " " + kind + ".yaml"), std::string::npos)
+      EXPECT_NE(refused.output.find("this is " + what + "; run it with `orthodyn " + kind + " " + kind + ".yaml`"),
+                std::string::npos)
           << refused.output;
     }
   }

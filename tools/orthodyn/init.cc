@@ -26,7 +26,7 @@ struct InitArguments {
 
 constexpr const char* kSceneHead = R"(# What this scene shows, in a sentence.
 # Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
-# Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
+# Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" also work.
 )";
 
 constexpr const char* kBody = R"(
@@ -47,7 +47,7 @@ materials:                 # all kinds: orthodyn list materials
     g23: 0.032 GPa
     g13: 0.66 GPa
 
-regions:                   # which part of the mesh is what, and where its grain runs
+regions:                   # material and axes of each part of the mesh
   all:
     material: wood
     axes: {first: [1, 0, 0], second: [0, 1, 0]}
@@ -124,11 +124,11 @@ tolerances: [1e-2, 1e-3, 1e-4]   # of the adaptive methods
 steps: [0.02 s, 0.01 s]          # of the fixed-step methods
 
 repeats: 3                 # timed integrations of each point
-samples: 100               # times at which errors are taken
+samples: 100               # times at which errors are measured
 limits: {seconds: 60}      # of each integration
 )";
 
-constexpr const char* kSweep = R"(# What depends on what?
+constexpr const char* kSweep = R"(# How do results depend on inputs?
 # Run it with `orthodyn sweep {file}`; its report is an HTML page.
 title: What is varied
 description: What is varied and why, in a sentence or two.
@@ -151,7 +151,7 @@ frames: {color: displacement}   # a picture of each point at the end; leave it o
 limits: {seconds: 60}      # of each point
 )";
 
-constexpr const char* kStability = R"(# Which integrators can be trusted with what?
+constexpr const char* kStability = R"(# Which integrators solve which scenes reliably?
 # Run it with `orthodyn stability {file}`; its report is an HTML page.
 title: What is tried
 description: What is tried and why, in a sentence or two.
@@ -160,7 +160,7 @@ cases:                     # scenes with an `expect` list, see orthodyn list exp
   - scene.yaml             # of `orthodyn init scene`
   # - {file: scene.yaml, label: fine, set: {mesh.cells: [40, 4, 4]}}
 integrators: [cvode_bdf, ida_bdf, tr_bdf2, generalized_alpha, auto]   # or [all], or {type: cvode_bdf, max_order: 2}
-variants:                  # what every case is run with
+variants:                  # changes of the scene; every case is run with each
   exact: {}
   warped: {elasticity.corotation: warped}
 limits: {seconds: 20}      # of each trial

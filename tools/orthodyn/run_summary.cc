@@ -67,8 +67,8 @@ void print_errors(const RunResult& result, int width) {
                              : "",
              errors->advice.empty() ? "" : ": ", errors->advice);
   if (errors->probed_unknown)
-    fmt::print("  {:<{}} of stresses and strains at probes unknown: only finer elements would estimate it\n", "",
-               width);
+    fmt::print("  {:<{}} of stresses and strains at probes unknown: only an estimate by finer elements gives them\n",
+               "", width);
   for (const ProbedError& e : errors->probed)
     fmt::print("  {:<{}} {} of {} {:.1e}{} ({:.2g} % of its size), due to the mesh\n", "", width, e.field, e.probe,
                e.error, e.unit == "1" ? "" : " " + e.unit, 100 * e.share());

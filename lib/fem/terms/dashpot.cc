@@ -66,11 +66,11 @@ class DashpotChoice : public TermChoice, public Ends {
  public:
   static const Spec<DashpotChoice>& spec() {
     using D = DashpotChoice;
-    static const auto s =
-        ends_spec<D>()
-            .key("coefficient", &D::coefficient_, "Total of all dashpots, shared evenly by the selected nodes.",
-                 {.required = true, .unit = "N s/m", .range = kPositive})
-            .check([](const D& dashpot, const Config& config) { dashpot.Ends::check(config); });
+    static const auto s = ends_spec<D>()
+                              .key("coefficient", &D::coefficient_,
+                                   "Sum of the coefficients of all dashpots; each selected node has an equal share.",
+                                   {.required = true, .unit = "N s/m", .range = kPositive})
+                              .check([](const D& dashpot, const Config& config) { dashpot.Ends::check(config); });
     return s;
   }
 
@@ -98,7 +98,7 @@ class DashpotChoice : public TermChoice, public Ends {
 
 const bool dashpot_registered = Registry<TermChoice>::add<DashpotChoice>(
     "dashpot",
-    "Dashpots between two nodes, or from nodes to an anchor, that resist the rate of their length; without an anchor "
+    "Dashpots between two nodes, or from nodes to an anchor, that resist changes of their length; without an anchor "
     "they resist all motion of the nodes.");
 
 }  // namespace

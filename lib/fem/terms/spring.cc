@@ -109,7 +109,8 @@ class SpringChoice : public TermChoice, public Ends {
     using S = SpringChoice;
     static const auto s =
         ends_spec<S>()
-            .key("stiffness", &S::stiffness_, "Total of all springs, shared evenly by the selected nodes.",
+            .key("stiffness", &S::stiffness_,
+                 "Sum of the stiffnesses of all springs; each selected node has an equal share.",
                  {.required = true, .unit = "N/m", .range = kPositive})
             .key("rest_length", &S::rest_length_, "Length without force; default: the length at rest.",
                  {.unit = "m", .range = kNonNegative})

@@ -18,7 +18,7 @@ void check_has_solids(const AbaqusFile& file) {
   const std::string flat =
       file.faces.empty()
           ? ""
-          : fmt::format(": {} elements of planes or shells alone are a 2D mesh or a surface; mesh its inside",
+          : fmt::format(": {} plane or shell elements alone are a 2D mesh or a surface; mesh the volume inside",
                         file.faces.size());
   file.draft.fail({}, "no solid elements (C3D4, C3D8, C3D6, ...){}", flat);
 }

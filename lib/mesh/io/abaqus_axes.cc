@@ -19,7 +19,7 @@ AbaqusAxes::ByElement AbaqusAxes::by_element(const std::string& name, std::size_
   if (!out.distribution)
     file_.draft.fail(orientation_.place, "*ORIENTATION: no *DISTRIBUTION {}", TextTokens::quoted(name));
   if (out.distribution->count != count)
-    file_.draft.fail(out.distribution->place, "distribution {} is not of {} by element, as the orientation {} needs it",
+    file_.draft.fail(out.distribution->place, "distribution {} does not give {} by element, which orientation {} needs",
                      TextTokens::quoted(out.distribution->name),
                      count == 6 ? "two points (COORD3D, COORD3D)" : "an angle (ANGLE)",
                      TextTokens::quoted(orientation_.name));
@@ -32,7 +32,8 @@ AbaqusAxes::ByElement AbaqusAxes::by_element(const std::string& name, std::size_
 const std::array<double, 6>& AbaqusAxes::values(const ByElement& listed, std::size_t cell) const {
   const AbaqusDistribution& all = *listed.distribution;
   const int row = listed.row[cell];
-  if (row < 0 && all.default_row.empty()) fail(cell, "its distribution has no row for it, and no default row");
+  if (row < 0 && all.default_row.empty())
+    fail(cell, "its distribution has neither a row for this element nor a default row");
   return row < 0 ? all.default_row.front().values : all.rows[static_cast<std::size_t>(row)].values;
 }
 

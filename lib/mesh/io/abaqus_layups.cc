@@ -81,8 +81,9 @@ class LayupMaker {
                          "*SOLID SECTION, COMPOSITE: the plies of element {} are {}; number its nodes, or set the "
                          "*ORIENTATION or STACK DIRECTION, so that stack direction and axis 3 agree",
                          cell.tag,
-                         std::abs(cosine) < kAlongStack ? "not stacked along axis 3 of the section's orientation"
-                                                        : "stacked in the opposite sense of those of other elements");
+                         std::abs(cosine) < kAlongStack
+                             ? "not stacked along axis 3 of the section's orientation"
+                             : "stacked in the opposite direction to those of other elements");
       up = cosine > 0 ? 1 : -1;
     }
     return up < 0;
@@ -91,7 +92,9 @@ class LayupMaker {
   double degrees_of(const AbaqusSection& section, const AbaqusPly& ply, const std::vector<std::size_t>& cells) const {
     if (ply.orientation.empty() || ply.orientation == section.orientation) return ply.degrees;
     const AbaqusOrientation* orientation = find_abaqus(file_.orientations, ply.orientation);
-    if (!orientation) file_.draft.fail(ply.place, "a ply: no *ORIENTATION {}", TextTokens::quoted(ply.orientation));
+    if (!orientation)
+      file_.draft.fail(ply.place, "the file has no *ORIENTATION {}, which a ply uses",
+                       TextTokens::quoted(ply.orientation));
     const AbaqusAxes own(file_, *orientation, lookup_);
     const auto angle_at = [&](std::size_t c) {
       return angle_between(file_, ply, axes_of(c), own.of(c, centre_of(file_.draft.cells[c], lookup_)));
@@ -100,8 +103,8 @@ class LayupMaker {
     for (const std::size_t c : cells)
       if (std::abs(std::remainder(angle_at(c) - degrees, 360)) > 1e-4)
         file_.draft.fail(ply.place,
-                         "the angle between the orientation {} of a ply and the section's varies; give an "
-                         "angle instead",
+                         "the angle between the orientation {} of a ply and that of the section varies among elements; "
+                         "give an angle instead",
                          TextTokens::quoted(ply.orientation));
     return degrees;
   }

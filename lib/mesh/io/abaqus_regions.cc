@@ -65,7 +65,8 @@ void warn_of_other_sets(AbaqusFile& file, AbaqusLookup& lookup) {
     const std::size_t count = lookup.each_cell({.set = key}, [](std::size_t) {});
     if (count > 0) others.push_back(fmt::format("{} ({} elements)", set.name, count));
   }
-  if (!others.empty()) file.draft.warn({}, "element sets without a *SOLID SECTION are no regions: {}", join(others));
+  if (!others.empty())
+    file.draft.warn({}, "element sets without a *SOLID SECTION do not become regions: {}", join(others));
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ class BinaryGmsh {
   // The number of records of `bytes_of_each` bytes. Fails if the rest of the file is too short for them.
   std::uint64_t take_count(std::size_t bytes_of_each) { return checked(take<std::uint64_t>(), bytes_of_each); }
   std::uint64_t checked(std::uint64_t count, std::size_t bytes_of_each) const {
-    if (count > (bytes_.size() - at_) / bytes_of_each) fail("{} records announced; is it truncated?", count);
+    if (count > (bytes_.size() - at_) / bytes_of_each)
+      fail("{} records are announced, more than the rest of the file can hold; is it truncated?", count);
     return count;
   }
 
@@ -141,7 +142,8 @@ class BinaryGmsh {
       const std::uint64_t all = count_line();
       for (std::uint64_t done = 0; done < all;) {
         const std::int32_t type = take_int(), count = take_int(), tags = take_int();
-        if (count < 1 || tags < 0 || tags > 1000) fail("a block of {} elements with {} tags", count, tags);
+        if (count < 1 || tags < 0 || tags > 1000)
+          fail("a block of {} elements with {} tags each; is the file damaged?", count, tags);
         const std::size_t nodes = nodes_of(type);
         checked(static_cast<std::uint64_t>(count), 4 * (1 + static_cast<std::size_t>(tags) + nodes));
         for (std::int32_t i = 0; i < count; ++i) {

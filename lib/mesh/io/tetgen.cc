@@ -153,7 +153,8 @@ std::vector<int> markers_of(const Mesh& mesh, Warnings& losses) {
       if (marker == 0) marker = numbers.at(name);
     }
     if (lost == 0) continue;
-    losses.push_back(fmt::format("a node has one marker: {} nodes of \"{}\" are in an earlier set", lost, name));
+    losses.push_back(
+        fmt::format("a node can have one marker only: {} nodes of \"{}\" keep that of an earlier set", lost, name));
   }
   return markers;
 }

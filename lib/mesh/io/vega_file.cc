@@ -162,11 +162,12 @@ class VegaReader {
     }
     const std::int64_t number = tokens.integer(what);
     if (done == 0) {
-      if (number != 0 && number != 1) tokens.fail("the first {} is {}; they count from 0 or 1", what, number);
+      if (number != 0 && number != 1) tokens.fail("the first {} is {}; numbers must start at 0 or 1", what, number);
       first = number;
     }
     const std::int64_t expected = first + static_cast<std::int64_t>(done);
-    if (number != expected) tokens.fail("{} {} where {} is expected; they count without gaps", what, number, expected);
+    if (number != expected)
+      tokens.fail("{} {} where {} is expected; numbers must have no gaps", what, number, expected);
     return number;
   }
 

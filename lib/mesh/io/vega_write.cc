@@ -35,11 +35,12 @@ std::string material_line(const MeshMaterial& m) {
 bool can_hold(const MeshMaterial& m, Warnings& losses) {
   const bool holds = m.problem.empty() && m.kind != MeshMaterial::Kind::anisotropic;
   if (!m.problem.empty()) losses.push_back(fmt::format("material \"{}\" is lost: {}", m.name, m.problem));
-  else if (!holds) losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness matrix: lost", m.name));
+  else if (!holds)
+    losses.push_back(fmt::format("the format cannot hold a stiffness matrix: material \"{}\" is lost", m.name));
   for (const auto& [where, name] : m.beyond)
     losses.push_back(fmt::format("the format cannot hold {} of material \"{}\": lost", name, m.name));
   if (holds && !m.axes_file.empty())
-    losses.push_back(fmt::format("the format cannot hold axes by element: lost those of material \"{}\"", m.name));
+    losses.push_back(fmt::format("the format cannot hold axes by element: those of material \"{}\" are lost", m.name));
   return holds;
 }
 

@@ -100,7 +100,7 @@ class VtkReader {
       if (at >= entries.size()) tokens_.fail("CELLS: {} entries are too few for {} cells", size, first);
       const double points = entries[at++];
       if (!(points >= 0 && points <= static_cast<double>(entries.size() - at)))
-        tokens_.fail("CELLS: cell {} of {} points", c, points);
+        tokens_.fail("CELLS: cell {} cannot have {} points; is the file damaged?", c, points);
       for (double k = 0; k < points; ++k) grid_.connectivity.push_back(entries[at++]);
       grid_.offsets.push_back(static_cast<double>(grid_.connectivity.size()));
     }
@@ -154,7 +154,7 @@ class VtkReader {
   }
 
   std::uint64_t times(std::uint64_t tuples, int components) const {
-    if (tuples > (std::uint64_t{1} << 40)) tokens_.fail("{} values announced", tuples);
+    if (tuples > (std::uint64_t{1} << 40)) tokens_.fail("{} values announced; is the file damaged?", tuples);
     return tuples * static_cast<std::uint64_t>(components);
   }
 

@@ -41,7 +41,8 @@ std::int64_t whole(const VtkGrid& grid, double x, double low, double high, const
 void check_sizes(const VtkGrid& grid) {
   if (grid.points.size() % 3 != 0) fail(grid, "{} coordinates are not three per point", grid.points.size());
   if (grid.types.size() != grid.offsets.size())
-    fail(grid, "{} types and {} offsets for the same cells", grid.types.size(), grid.offsets.size());
+    fail(grid, "{} cell types, but {} cell offsets; there must be one of each per cell", grid.types.size(),
+         grid.offsets.size());
   const auto check = [&](const std::vector<CellData>& arrays, std::size_t tuples, const char* what) {
     for (const CellData& data : arrays) {
       if (data.components >= 1 && data.values.size() == tuples * static_cast<std::size_t>(data.components)) continue;
@@ -119,8 +120,8 @@ std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
                                        [](double type) { return type == 5 || type == 9 || type == 22 || type == 23; });
     fail(grid,
 
-         "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
-         has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside" : "");
+         "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, 25 or 29, wedges 13, 26 or 32){}",
+         has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh the volume inside" : "");
   }
   if (solids.size() < grid.types.size())
     draft.warn({}, "{} vertices, lines, triangles and quadrilaterals are ignored", grid.types.size() - solids.size());

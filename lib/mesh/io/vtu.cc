@@ -120,7 +120,8 @@ class VtuReader {
   CellData read_array(const pugi::xml_node& array, std::optional<std::size_t> tuples = {}) {
     const std::string name = array.attribute("Name").value();
     CellData data{.name = name, .components = array.attribute("NumberOfComponents").as_int(1)};
-    if (data.components < 1) fail(array, "array {}: {} components", TextTokens::quoted(name), data.components);
+    if (data.components < 1)
+      fail(array, "array {}: {} components; there must be at least 1", TextTokens::quoted(name), data.components);
     try {
       data.values = read_values(array, data.components, tuples);
     } catch (const std::runtime_error& error) {

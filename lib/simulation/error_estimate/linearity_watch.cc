@@ -180,7 +180,7 @@ std::vector<std::string> LinearityWatch::corotational_regions(double t, const Ve
 
 std::string linearity_summary(const LinearityWatch& watch) {
   const std::string where = watch.covers_all_regions() ? "" : " in " + join(names_of(watch.regions()));
-  if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
+  if (std::isnan(watch.error())) return fmt::format("linear{}: the error is not known", where);
   if (watch.unstable()) return fmt::format("linear{}: {}", where, kBucklesBelowLoads);
   const bool is_watched = std::isfinite(watch.allowed());
   return fmt::format("linear{}: off by {}{}", where, linearity_error_text(watch.error(), "{:.1e}"),

@@ -104,8 +104,9 @@ void GrowingFile::restore(const Archive& archive) {
   std::error_code ec;
   const auto found = std::filesystem::file_size(path_, ec);
   if (ec || !in)
-    throw ConfigError(path_.string(), fmt::format("cannot be read{}, but the checkpoint continues it; {}",
-                                                  ec ? " (" + ec.message() + ")" : "", kPutBack));
+    throw ConfigError(path_.string(),
+                      fmt::format("cannot be read{}, but resuming from the checkpoint continues this file; {}",
+                                  ec ? " (" + ec.message() + ")" : "", kPutBack));
   if (found < size_)
     throw ConfigError(path_.string(),
                       fmt::format("has {} bytes, but {} when the checkpoint was written: the end is lost; {}", found,

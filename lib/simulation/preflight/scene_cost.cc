@@ -122,10 +122,10 @@ class SavingsFinder {
     without.damping.reset();
     for (auto& [name, region] : without.regions) region.stiffness_damping.reset();
     const BuiltScene built = build(without);
-    found_.push_back(
-        fmt::format("damping: it removes {:.1e} of a slow vibration ({:.3g} Hz) in the simulated time, but does damp "
-                    "fast ones; omitting it {}",
-                    taken, std::sqrt(omega2) / (2 * std::numbers::pi), saving(*built.model, built.initial)));
+    found_.push_back(fmt::format(
+        "damping: it reduces a slow vibration ({:.3g} Hz) by only {:.1e} of its amplitude in the simulated time, "
+        "but it damps fast ones; omitting it {}",
+        std::sqrt(omega2) / (2 * std::numbers::pi), taken, saving(*built.model, built.initial)));
   }
 
   // Regions are judged by their elastic energy in the response, because a region may move but hardly deform.
@@ -165,9 +165,10 @@ class SavingsFinder {
                       "doubling the cell size removes seven of eight elements",
                       error));
     if (error > kCoarseMesh)
-      found_.push_back(fmt::format(
-          "no elements of the mesh, whose error is about {:.1e} of the elastic energy: finer cells{} would reduce it",
-          error, parts().mesh.order() == 1 ? " or mesh.order: 2" : ""));
+      found_.push_back(
+          fmt::format("mesh: leave out no elements; its error is about {:.1e} of the elastic energy, and finer cells{} "
+                      "would reduce it",
+                      error, parts().mesh.order() == 1 ? " or mesh.order: 2" : ""));
   }
 
   void check_kinematics() {

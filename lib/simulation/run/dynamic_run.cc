@@ -157,7 +157,7 @@ class DynamicAnalysis {
       checkpointer.write(outcome.last);
       return true;
     } catch (const RunError& e) {
-      context_.listener.on_warning(fmt::format("no checkpoint of the last state: {}", e.what()));
+      context_.listener.on_warning(fmt::format("the last state could not be saved as a checkpoint: {}", e.what()));
       return false;
     }
   }

@@ -50,8 +50,8 @@ void refuse_other_kinds(const Config& config, InputFile wanted) {
   const auto has = [&](const Mark& mark) { return config.has(mark.key); };
   if (std::any_of(kMarks.begin(), kMarks.end(), [&](const Mark& m) { return m.kind == wanted && has(m); })) return;
   if (const auto other = std::find_if(kMarks.begin(), kMarks.end(), has); other != kMarks.end())
-    throw ConfigError(config.file(),
-                      fmt::format("this is {}: orthodyn {} {}", other->words, other->command, config.file()));
+    throw ConfigError(config.file(), fmt::format("this is {}; run it with `orthodyn {} {}`", other->words,
+                                                 other->command, config.file()));
 }
 
 Config read_scene_file(const std::string& file, const SceneChanges& changes, std::vector<std::string>* left_out) {
@@ -69,8 +69,8 @@ Config changed_scene(Config scene, const SceneChanges& changes, std::vector<std:
 
 std::string left_out_sentence(const std::vector<std::string>& left_out, const SceneChanges& changes) {
   if (left_out.empty()) return "";
-  return fmt::format("integrator: {} {} no meaning for {} and {} left out", join(left_out),
-                     left_out.size() == 1 ? "has" : "have", changes.integrator.value_or(""),
+  return fmt::format("integrator: {} {} not used by {} and {} left out", join(left_out),
+                     left_out.size() == 1 ? "is" : "are", changes.integrator.value_or(""),
                      left_out.size() == 1 ? "is" : "are");
 }
 

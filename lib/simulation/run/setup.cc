@@ -37,7 +37,7 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
   }
   for (const auto& field : fields) {
     if (std::find(names.begin(), names.end(), field) != names.end()) continue;
-    origin.fail(fmt::format("unknown field '{}'{}; known: {}; those of stress and strain also as REGION.FIELD", field,
+    origin.fail(fmt::format("unknown field '{}'{}; known: {}; stress and strain fields also as REGION.FIELD", field,
                             did_you_mean(field, names), join(short_names)));
   }
 }
@@ -65,7 +65,7 @@ void check_expectations(const Scene& scene, const FemModel& model) {
       e.origin.fail(quantity.ask_for_component());
     e.require_units(quantity.unit);
     if (scene.is_static() && (e.at || e.take != TimeReduction::end || !quantity.values))
-      e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
+      e.origin.fail("a static analysis gives values in equilibrium only: remove 'take' and 'at'" +
                     std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
     if (e.at && (*e.at < scene.time.start || *e.at > scene.time.end))
       e.origin.fail(fmt::format("at: {} s is outside of the time span", *e.at));

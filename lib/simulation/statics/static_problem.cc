@@ -10,7 +10,7 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   const std::string freedom = describe_rigid_freedom(model, t);
   if (freedom.empty()) return;
   const std::string message = fmt::format(
-      "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three "
+      "{}, so its equilibrium is not unique. Clamp it so that all six rigid motions are held (a surface, or three "
       "points not in line)",
       freedom);
   if (scene.clamps.empty()) throw scene.places.placed(ConfigError("clamps", message));

@@ -66,7 +66,7 @@ void check_frames(const Comparison& c, const Config& at) {
 
 void check_comparison(const Comparison& c, const Config& config) {
   if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
-  if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
+  if (c.integrators.empty()) config.at("integrators").fail("is empty; list integrators, or 'all'");
   if (c.tolerances.empty() && c.steps.empty()) config.fail("give 'tolerances', 'steps' or both");
   refuse_repeated(c.tolerances, config, "tolerances");
   refuse_repeated(c.steps, config, "steps");

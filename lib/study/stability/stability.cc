@@ -16,7 +16,7 @@ namespace {
 
 void check(const Stability& stability, const Config& config) {
   if (stability.cases.empty()) config.at("cases").fail("is empty; name at least one scene with an 'expect' list");
-  if (stability.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
+  if (stability.integrators.empty()) config.at("integrators").fail("is empty; list integrators, or 'all'");
   if (stability.variants.empty()) config.at("variants").fail("is empty; remove it to run the cases unchanged");
 }
 

@@ -119,8 +119,8 @@ def _details(study, folder):
     return pairs([("Scene", study.about["file"]), ("Command", tag("code", made_by)),
                   ("Refinement", f"cells {study.about['ratio']} times as small on each level"),
                   ("Limit", "Richardson's extrapolation of the finest meshes; its uncertainty after Roache (1998)"),
-                  ("Mesh error", "of frequencies and load factors their own, of others the share of the elastic energy; "
-                   "estimated on each mesh by itself"),
+                  ("Mesh error", "for frequencies and load factors their own error, for other metrics the error's "
+                   "share of the elastic energy; estimated on each mesh alone"),
                   ("Machine", machine.get("processor", "")), ("Written", study.about["written"])])
 
 

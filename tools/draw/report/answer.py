@@ -69,7 +69,7 @@ def headline(comparison):
         return tag("p", f"For an error of {target}, ", *_fastest(comparison, comparison.problems[0]), class_="headline")
     nobody = formatting.joined(problem.label for problem in open_problems)
     return tag("p", f"For an error of {target}, fastest (or within 10 % of it) is ", joined(_wins(comparison, wins), "; "),
-               f"; nobody reached it on {nobody}." if nobody else ".", class_="headline")
+               f"; no method reached it on {nobody}." if nobody else ".", class_="headline")
 
 
 def _fastest(comparison, problem):

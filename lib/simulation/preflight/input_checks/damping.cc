@@ -25,7 +25,7 @@ void check_stiffness(const CheckContext& context, const Config& place, double be
        "{:.4g} s gives the lowest axial vibration ({:.3g} Hz) a damping ratio of {:.3g}, and bending (about {:.2g} Hz) "
        "about {:.2g}{}{}. Is it a damping ratio? For a ratio xi at the frequency f use xi/(pi f)",
        beta, omega / (2 * std::numbers::pi), ratio, bending * omega / (2 * std::numbers::pi), bending * ratio,
-       creeps ? ": nothing vibrates, it creeps" : "",
+       creeps ? ": the body creeps back without vibrating" : "",
        beta > context.span() ? fmt::format(", for longer than the run of {:.4g} s", context.span()) : "");
 }
 

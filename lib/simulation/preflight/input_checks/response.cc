@@ -98,7 +98,7 @@ Warnings check_response(const Config& config, const Scene& scene, const BuiltSce
   const double extent = bounding_box(built.model->parts().mesh).size().maxCoeff();
   const LikelyError error = likely_error(config, extent, stiffest_constant(*built.model));
   if (!statics.load.allFinite())
-    throw ConfigError(error.place, "the loads are too large to be numbers; " + error.words);
+    throw ConfigError(error.place, "the loads exceed the range of numbers; " + error.words);
   if (!statics.exists()) return {};
   const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
