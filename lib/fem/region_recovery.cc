@@ -13,6 +13,10 @@ namespace {
 // Smallest usable eigenvalue of the normal equations, relative to the largest. The points do not determine polynomials
 // with smaller eigenvalues.
 constexpr double kSmallest = 1e-4;
+// Likewise for the 2 x 2 x 2 points of hexahedra, where stresses are so accurate that the few points at the surface are
+// extrapolated rather than supplemented by those of neighbours: squares across a single layer are left out.
+constexpr double kSmallestOfHexahedra = 0.03;
+constexpr Eigen::Index kBilinear = 6;  // coefficients that one hexahedron determines: x, y, z, xy, yz, zx
 constexpr int kPointsPerCoefficient = 4;
 constexpr int kPointsInLayers =
     3;  // likewise, of points in layers, which lack full rank: the four hexahedra at a corner
@@ -99,13 +103,13 @@ struct Fit {
   bool has_full_rank() const { return rank == patch.inverse.rows(); }
 };
 
-Fit fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
+Fit fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree, double smallest_share = kSmallest) {
   const Mat3 to_patch = principal_axes(places);
   Eigen::MatrixXd A = monomials_at(places, centre, to_patch, degree);
   const Vector means = A.colwise().mean();
   A.rowwise() -= means.transpose();
   const auto pairs = symmetric_eigenpairs<Eigen::Dynamic>(Eigen::MatrixXd(A.transpose() * A));
-  const double smallest = kSmallest * pairs.values[A.cols() - 1];
+  const double smallest = smallest_share * pairs.values[A.cols() - 1];
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.cols(), A.cols());
   Eigen::Index rank = 0;
   for (Eigen::Index i = 0; i < A.cols(); ++i)
@@ -153,23 +157,26 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& 
     }
   }
 
+  const bool has_superconvergent_points = type.shape() == CellShape::hex20 && per_element_ == 8;
   RegionNeighbours neighbours(cells_, nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
     const Vec3 centre = node_places_.col(row);
-    Fit found = fit(places_of(elements), centre, degree_);
-    for (int ring = 0; ring < kMostRings && !(found.has_full_rank() && found.has_enough_points); ++ring) {
+    const double smallest = has_superconvergent_points ? kSmallestOfHexahedra : kSmallest;
+    Fit found = fit(places_of(elements), centre, degree_, smallest);
+    const bool is_enough = has_superconvergent_points && found.rank >= kBilinear;
+    for (int ring = 0; ring < kMostRings && !is_enough && !(found.has_full_rank() && found.has_enough_points); ++ring) {
       std::vector<int> larger = elements;
       if (!neighbours.grow(row, larger)) break;
-      Fit wider = fit(places_of(larger), centre, degree_);
+      Fit wider = fit(places_of(larger), centre, degree_, smallest);
       // Neighbours do not help where all points lie in two layers; a wider patch would only be less accurate.
       if (found.has_enough_points && wider.rank == found.rank) break;
       elements = std::move(larger);
       found = std::move(wider);
     }
-    if (!found.has_full_rank()) found = fit(places_of(elements), mean_of(places_of(elements)), degree_);
+    if (!found.has_full_rank()) found = fit(places_of(elements), mean_of(places_of(elements)), degree_, smallest);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
     elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found.patch), {}});
