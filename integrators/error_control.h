@@ -1,5 +1,5 @@
-// The keys of error control. The local error is at the tolerance if its root mean square is rtol times the position
-// scale in the positions and rtol times the velocity scale in the velocities.
+// The keys of error control. rtol bounds the root mean square of the local errors of all positions and velocities, each
+// divided by its scale (scaled_norm.h).
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
 // The n x n matrix of an implicit scheme, A = w_m M + w_d D + w_k K, and its factor. For schemes on the second-order
 // form w_m = 1, w_d is in s and w_k in s^2.
 //
-// If A of a nonlinear model is found indefinite, K is replaced by its positive semidefinite Gauss-Newton part, for this
-// and the next ten calls of linearize(). Not thread-safe: one object per integrator.
+// If A of a nonlinear model is found indefinite, the next ten calls of linearize() compute only the positive
+// semidefinite Gauss-Newton part of K; factor() also computes it at once. Not thread-safe: one object per integrator.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ namespace orthodyn {
 
 class NewtonMatrix {
  public:
-  // Throws ConfigError if the solver does not accept the model's matrices. `model` and `statistics`
-  // must outlive this object.
+  // Throws ConfigError if the solver does not accept the model's matrices. `model` and `statistics` must outlive this
+  // object.
   NewtonMatrix(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics);
 
   // Computes K and D at a state (t in s, q and v of size num_dofs()). factor() may then be called with any weights.
@@ -31,17 +31,16 @@ class NewtonMatrix {
 
   // Solves A x = b; an iterative solver solves to its tolerance. b and x may be the same. Precondition: the last
   // factor() returned true. An iterative solver throws RecoverableError if it does not converge or finds A indefinite.
-  // In the latter case the next ten calls of linearize() use the Gauss-Newton part, if the model is nonlinear.
   void solve(const ConstVectorRef& b, VectorRef x);
 
   // True if solve() is accurate to a tolerance only, not to round-off.
   bool is_iterative() const { return solver_->is_iterative(); }
   // Sets the tolerance of the next solves of an iterative solver; 1e-10 by default.
   void set_tolerance(const SolveTolerance& tolerance) { solver_->set_tolerance(tolerance); }
-  // Smallest ratio of successive Newton corrections that set_newton_tolerance() permits; 0 with a direct solver.
+  // Smallest ratio of successive Newton corrections to rely on after set_newton_tolerance(); 0 with a direct solver.
   double least_rate() const { return is_iterative() ? kNewtonForcing : 0; }
   // Sets the tolerance for corrections of Newton's method: a relative error of 1e-2 (forcing term) or an absolute error
-  // of `absolute`, whichever is larger. The next correction removes what is left (Dembo, Eisenstat & Steihaug, SIAM J.
+  // of `absolute`, whichever is larger. The next correction removes that error (Dembo, Eisenstat & Steihaug, SIAM J.
   // Numer. Anal. 19, 1982). A direct solver may then use single precision, except for linear models, whose first
   // correction is the solution, and free bodies, whose linear momentum is kept to round-off.
   void set_newton_tolerance(double absolute) {

@@ -23,8 +23,8 @@ struct DirkTable {
   std::vector<double> error;           // the local error is h sum_i error_i (V_i, A_i), i = 0 to s
 };
 
-// Butcher table of a composite method for y = (q, v) with slope f(y). The trapezoidal rule leads from y0 at the start
-// to y_g at the fraction g of the step; then
+// Butcher table of a composite method for y = (q, v) with slope f(y). The trapezoidal rule gives y_g at the fraction
+// g of the step; then
 //
 //   y1 = y0 + h (q0 f(y0) + q1 f(y_g) + q2 f(y1)),    q0 = 1 - q1 - q2,    q1 g + q2 = 1/2.
 //
@@ -55,7 +55,7 @@ class Dirk : public OneStep {
   std::vector<StageSolver*> solver_of_;                // solvers of stages 1 to s
   StageSolver::Stage stage_;
   Eigen::MatrixXd V_, A_;                                // a column per stage
-  AccelerationPredictor predictor_, attempt_predictor_;  // up to now(); with the last attempt's stages
+  AccelerationPredictor predictor_, attempt_predictor_;  // of accepted steps; with the last attempt, too
 };
 
 }  // namespace orthodyn

@@ -14,8 +14,8 @@
 //   The lag of the response, |S (M u'' + D u')|: the leading term of the error if the load varies slowly. It is counted
 //   in displacements only.
 //
-// The lag is not a bound if the load varies as fast as a mode left out (resonance). In that mode the lag is then at
-// least as large as u.
+// The lag is no bound of the error if the load varies as fast as a mode left out (resonance); in that mode the lag is
+// then at least |u|.
 #pragma once
 
 #include "integrators/native/modal_load.h"

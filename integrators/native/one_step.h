@@ -77,7 +77,7 @@ class OneStep : public Integrator {
   Scales scales_;
   PredictiveStepController control_;
   double h_ = 0;             // next step with error control, s; 0 if still to be estimated
-  double newton_limit_ = 0;  // bound of the next step after a failure of Newton's method on a longer one, s
+  double newton_limit_ = 0;  // bound of the next step after a longer one had no solution, s
   double error_ = 0;         // error of the last attempt in units of the tolerance
   std::string cause_;        // why the model refused the last attempt, if it did
   StepEnd before_, now_;     // the ends of the last step

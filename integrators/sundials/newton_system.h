@@ -43,7 +43,7 @@ class NewtonSystem {
   int linearize(double t, N_Vector y, bool keep, sunbooleantype* renewed);
   // First order, full: computes J at y.
   int fill_jacobian(double t, N_Vector y, SUNMatrix J);
-  // Residual form: computes K and D (reduced; J is unused) or J (full) at y. `cj` in 1/s.
+  // Residual form: computes K and D (reduced; J is unused) or J = dF/dy + cj dF/dy' (full) at y. `cj` in 1/s.
   int linearize_residual(double t, double cj, N_Vector y, SUNMatrix J);
 
   double least_rate() const { return reduced_ ? reduced_->least_rate() : 0; }  // see NewtonMatrix::least_rate()

@@ -1,8 +1,8 @@
 // Newton's iteration for the implicit stages of ARKODE, with its own convergence test (remaining_error.h).
 //
-// The stages of a step share the matrix and gamma, so their corrections shrink alike. ARKODE's test either requires the
-// last correction itself to be below the tolerance, which takes one or two iterations more than needed, or uses the
-// rate of earlier steps, which is too small after gamma has changed.
+// The stages of a step share the matrix and gamma, so their corrections shrink at the same rate. ARKODE's test either
+// requires the last correction itself to be below the tolerance, which takes one or two iterations too many, or uses
+// the rate of earlier steps, which is too small after gamma has changed.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>

@@ -10,8 +10,8 @@
 
 namespace orthodyn {
 
-// Reorders cells so that consecutive groups are compact: recursive bisection of the bounding box across its longest
-// side.
+// Reorders cells so that consecutive groups are compact: recursive bisection of the cells across the longest side of
+// their bounding box.
 std::vector<int> by_place(const ElementMesh& mesh, std::vector<int> cells);
 
 class ElementGroups {
@@ -44,8 +44,8 @@ class ElementGroups {
     return all;
   }
 
-  // Number of elements in a group: about 10 us of work, ten times the cost of handing a group to a thread. A multiple
-  // of Batch::kLanes.
+  // Elements in a group: 10 us of work, ten times the cost of handing it to a thread. A multiple of Batch::kLanes.
+  // Fewer than four such groups are joined into one.
   static constexpr int kElements = 256;
 
  private:

@@ -21,7 +21,7 @@
 namespace orthodyn {
 
 // What to do at a critical point. stop: end the analysis. follow: continue along the path, through unstable equilibria.
-// jump: minimise the energy to reach a stable equilibrium on another path.
+// jump: go to a stable equilibrium elsewhere, along another branch or by minimising the energy.
 enum class AtLimit { stop, follow, jump };
 
 template <>
@@ -31,7 +31,7 @@ struct EnumNames<AtLimit> {
 };
 
 struct LoadStepping {
-  double first_step = 0.25, max_step = 1, min_step = 1e-4;  // steps of the load factor, at the start of the path
+  double first_step = 0.25, max_step = 1, min_step = 1e-4;  // of the load factor; min_step: at the start of the path
   long max_steps = 10'000;
   AtLimit at_limit = AtLimit::stop;
 
@@ -42,7 +42,8 @@ struct LoadStepping {
 
 class LoadStepper {
  public:
-  // `path` and `solver` must outlive this object. `length`: size of the motion (m), > 0.
+  // `path` and `solver` must outlive this object. `length` (m, > 0): bound of a nonlinear body's first displacement,
+  // and scale of jumps.
   LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping, double length);
 
   // The last equilibrium; state().t is the load factor.

@@ -1,5 +1,5 @@
 // Arc-length continuation along a path of equilibria (q, lambda): a straight step along the tangent, then corrections
-// in the plane perpendicular to it (Riks 1979), or at a fixed load factor where the path is steep. The path may pass
+// in the plane perpendicular to it (Riks 1979), or at a fixed load factor where dlambda/ds > 0.5. The path may pass
 // limit points and unstable equilibria.
 //
 // The arc length s is dimensionless: ds^2 = |dq|^2 / |dq/dlambda at the start|^2 + dlambda^2, so ds = sqrt(2) dlambda
@@ -27,8 +27,8 @@ class PathTracer {
 
   const PathState& current() const { return current_; }
 
-  // Finds the equilibrium at arc length ds > 0 from the current one. Empty if none is found, or if the path turns by
-  // more than 60 degrees; the step must then be shortened.
+  // Finds the equilibrium at an arc length of about ds > 0 from the current one, or at lambda = 1 if that is nearer.
+  // Empty if none is found or the path turns by more than 60 degrees; the step must then be shortened.
   std::optional<PathState> advance_by(double ds);
 
   // Finds an equilibrium whose displacement from the current one, projected on the direction of `shift`, is `shift`

@@ -13,9 +13,9 @@ namespace orthodyn::python {
 struct PythonModelParts {
   Vector mass;               // kg, of each coordinate
   pybind11::function force;  // f(t, q, v), N
-  pybind11::object tangent;  // (t, q, v) -> (K, D), values on the pattern; D may be None
+  pybind11::object tangent;  // (t, q, v) -> (K, D), values on the pattern
   Pattern pattern;           // lower triangle only if symmetric
-  bool damped = false;       // the tangent returns D
+  bool damped = false;       // D is read; otherwise it may be None
   bool linear = false, time_dependent = true;
 };
 
@@ -48,7 +48,7 @@ class PythonModel : public Model {
   PythonModelParts parts_;
   mutable std::exception_ptr thrown_;
   Traits traits_;
-  std::vector<std::size_t> diagonal_;  // of each column
+  std::vector<std::size_t> diagonal_;  // index of each column's diagonal entry
 };
 
 }  // namespace orthodyn::python

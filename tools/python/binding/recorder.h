@@ -19,8 +19,8 @@ class Recorder : public Observer {
   void on_resume(const ObservedState&) override { complete_ = false; }
   void on_output(const ObservedState& observed) override { record(observed); }
 
-  // Moves out "times" (frames,), "points" (nodes, 3), "cells" (cells, most nodes of a cell) with -1 after the nodes of
-  // smaller cells, "cell_types" (cells,) as numbered by VTK, "fields" by name (frames, nodes or cells, components) and
+  // Moves out "times" (frames,), "points" (nodes, 3), "cells" (cells, nodes of the largest cell; -1 where
+  // absent), "cell_types" (cells,) as numbered by VTK, "fields" by name (frames, nodes or cells, components) and
   // "cell_fields", the names of the fields at cells. Empty after a resumed run, whose first frames are only in files.
   pybind11::dict take();
 
