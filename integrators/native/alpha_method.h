@@ -9,7 +9,7 @@
 // positions would be too small, and the spurious stresses would add energy.
 //
 // w approximates the solution's acceleration at t + theta h, theta = alpha_m - alpha_f (Jansen, Whiting & Hulbert
-// 2000). At a start w = x; each step multiplies this initial error by -alpha_m / (1 - alpha_m). When h changes, w is
+// 2000). At a start w = x; each step multiplies the error of w by -alpha_m / (1 - alpha_m). When h changes, w is
 // shifted to the new time t + theta h (Bruels & Arnold 2008). The order is 2 if gamma = 1/2 - theta, else 1.
 #pragma once
 

@@ -99,12 +99,12 @@ Mat6 voigt(const Stiffness& c);
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c);
 IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c);
 
-// The bulk modulus kappa = 1 / (I : S : I), Pa, with the compliance S: pressure p changes the volume by -p / kappa,
-// whatever else it does to the shape (Vergori, Destrade, McGarry & Ogden 2013, Computational Mechanics 52, 959).
+// The bulk modulus kappa = 1 / (I : S : I), Pa, with the compliance S: pressure p changes the volume by the fraction
+// -p / kappa, whatever it does to the shape (Vergori, Destrade, McGarry & Ogden 2013, Computational Mechanics 52, 959).
 double bulk_modulus(const Stiffness& c);
 
-// C - kappa I (x) I for a kappa (Pa) of at most bulk_modulus(C). Positive semidefinite; for bulk_modulus(C) the strain
-// S : I, the response to pressure, has no stress.
+// C' = C - kappa I (x) I, positive semidefinite for kappa (Pa) <= bulk_modulus(C). If they are equal, C' : S : I = 0:
+// the strain S : I due to pressure has no stress.
 IsotropicStiffness without_bulk(IsotropicStiffness c, double kappa);
 OrthotropicStiffness without_bulk(OrthotropicStiffness c, double kappa);
 AnisotropicStiffness without_bulk(AnisotropicStiffness c, double kappa);

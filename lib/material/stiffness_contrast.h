@@ -1,4 +1,4 @@
-// How much stiffer a material is in its stiffest strain than in its softest, which tells whether elements lock.
+// The ratio of a material's largest to its smallest stiffness, which tells whether elements lock.
 #pragma once
 
 #include "lib/core/types.h"
@@ -6,14 +6,14 @@
 namespace orthodyn {
 
 struct StiffnessContrast {
-  double ratio;     // of the extreme eigenvalues of C in Mandel's notation; (1 + nu) / (1 - 2 nu) if isotropic
-  bool volumetric;  // whether the stiffest strain is nearly a change of volume alone
+  double ratio;     // of the extreme eigenvalues of C in Mandel's notation; (1 + nu) / (1 - 2 nu) if isotropic, nu >= 0
+  bool volumetric;  // true if the stiffest strain is nearly a pure change of volume
 };
 
 // `stiffness`: Voigt form (stiffness.h), Pa. Precondition: positive definite.
 StiffnessContrast stiffness_contrast(const Mat6& stiffness);
 
-// Whether elements of the displacement formulation have wrong stresses, so that the mixed one is needed.
+// True if volumetric, with a ratio at which the stresses of elements in the displacement formulation are wrong.
 bool is_nearly_incompressible(const Mat6& stiffness);
 
 }  // namespace orthodyn

@@ -26,7 +26,7 @@ struct Quantity {
   std::function<std::vector<double>(const ObservedState&)> values = {};  // empty for kEnergyBalance
 
   int components() const { return choices.empty() ? 1 : static_cast<int>(choices.size()); }
-  // Whether this is a whole vector, whose drift is measured by the norm.
+  // True for three components, also principal stresses; the norm then measures the drift.
   bool is_vector() const { return choices.size() == 3; }
   // "'tip.displacement' has several components: choose .x, .y, .z or .magnitude"
   std::string ask_for_component() const;
@@ -52,8 +52,8 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
                        const SourceLocation& origin);
 
-// Likewise for a field at a node: the material of one of the node's regions must have strengths. For REGION.FIELD, this
-// region must contain the node and its material must have strengths.
+// Likewise for a field at a node: one of the node's regions must have strengths. The region of REGION.FIELD must
+// contain the node, and only its strengths count.
 void require_field_at(const std::string& field, int node, const FemModel& model, const SourceLocation& origin);
 
 // SI unit of an extreme; "" if dimensionless.

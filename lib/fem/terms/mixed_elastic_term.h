@@ -1,15 +1,15 @@
 // Elasticity in the mixed formulation, for nearly incompressible materials: the volume strain theta is replaced by its
-// projection onto polynomials in each element (volume_projection.h), with the bulk modulus kappa (stiffness.h),
+// projection pi theta onto polynomials in each element (volume_projection.h). With the bulk modulus kappa,
 //
 //     E = integral of Psi' + kappa/2 (pi theta)^2,    Psi' the law's energy for C' = C - kappa I (x) I.
 //
 // This is the displacement-pressure formulation with the pressure -kappa pi theta eliminated in each element (Malkus &
 // Hughes 1978, Comput. Methods Appl. Mech. Eng. 15, 63): the mean dilatation for a constant pressure (Nagtegaal, Parks
-// & Rice 1974), Q2-P1 for a linear one. The energy is exact for the projected strain, and the tangent symmetric.
+// & Rice 1974), Q2-P1 for a linear one. The force is -dE/du, so the tangent is symmetric.
 //
-// The base class has the part of C'. This class adds the volumetric stress s = kappa pi theta (Pa, positive in
+// The base class computes the part of C'. This class adds the volumetric stress s = kappa pi theta (Pa, positive in
 // tension): with g_i = sum_p V_p psi_i grad theta_p, the force is -kappa sum t_i g_i and the tangent kappa sum g_i
-// g_i^T plus the curvature of theta times s.
+// g_i^T plus s times the second derivative of theta. V_p, psi_i and t_i: volume_projection.h.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ namespace orthodyn {
 template <Element E, class Law>
 class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
  public:
-  // `law`: for C'. The other arguments as for the base class.
+  // `law`: of C'. `kappa`: bulk_modulus(C), Pa. Other arguments as in the base class.
   MixedElasticTermOf(const ElementType& type, const ElementMesh& mesh, ElasticRegion region, const Law& law,
                      double kappa, const BlockPattern& pattern, const IntegrationRule* rule)
       : Base(type, mesh, std::move(region), law, pattern, rule),
@@ -105,7 +105,6 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     });
   }
 
-  // With the mean of the volumetric stress.
   PointObservation observe(int k, const NodalState& s) const override {
     PointObservation out = Base::observe(k, s);
     const int b = k / Batch::kLanes;
@@ -185,7 +184,7 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     return rate_of(b, s, volume);
   }
 
-  // Coefficients of the volumetric stress: elastic, plus viscous with a rate.
+  // Coefficients of the volumetric stress: elastic, plus viscous if there is a rate.
   Coefficients stress_of(const Volume& volume, const std::optional<Coefficients>& rate) const {
     Coefficients stress;
     for (std::size_t i = 0; i < stress.size(); ++i) {
@@ -249,7 +248,7 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
                                     p == 0, gradient_[i]);
     }
 
-    // Adds s d2 theta to the form at a point of the batch, or of one of its lanes.
+    // Adds s d2 theta to the tangent form at a point, of the whole batch or of one lane.
     template <class Form>
     void add_to(int p, Form& form) const {
       if (has_curvature_) form.Haa += curvature(p);
@@ -294,7 +293,7 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     int b_;
     Volume volume_;
     Coefficients stress_;
-    std::array<Columns, static_cast<std::size_t>(kTerms)> gradient_;  // of t_i, by the displacements of nodes 1, 2, ...
+    std::array<Columns, static_cast<std::size_t>(kTerms)> gradient_;  // g_i at nodes 1, 2, ...
     bool has_curvature_;
   };
 

@@ -44,14 +44,14 @@ class VolumeProjection {
   // psi_i at a point of a batch, m^-3/2.
   Batch polynomial(int batch, int point, int i) const { return Batch::load(values_[index(batch, point, i)].data()); }
 
-  // The polynomial with these coefficients at a point.
+  // sum_i c_i psi_i at a point.
   Batch at(int batch, int point, const Coefficients& c) const {
     Batch sum = c[0] * polynomial(batch, point, 0);
     for (int i = 1; i < kTerms; ++i) sum += c[static_cast<std::size_t>(i)] * polynomial(batch, point, i);
     return sum;
   }
 
-  // Adds a point's part to the coefficients: V psi_i theta.
+  // Adds V psi_i theta of a point to each c_i.
   void add(int batch, int point, const Batch& V_theta, Coefficients& c) const {
     for (int i = 0; i < kTerms; ++i) c[static_cast<std::size_t>(i)] += V_theta * polynomial(batch, point, i);
   }
@@ -65,7 +65,7 @@ class VolumeProjection {
     return V;
   }
 
-  // Gram-Schmidt of 1, x, y, z with the weights V: one row per point, one column per polynomial.
+  // Orthonormalises 1, x, y, z with the weights V by QR: one row per point, one column per polynomial.
   static Eigen::MatrixXd polynomials(const Eigen::Matrix3Xd& places, const Vector& V) {
     const Vector root = V.cwiseSqrt();
     Eigen::MatrixXd weighted(V.size(), kTerms);

@@ -16,7 +16,7 @@ struct ProcessLimits {
 struct ProcessEnd {
   enum class Kind { exited, signalled, timed_out, out_of_memory, interrupted };
   Kind kind = Kind::exited;
-  int code = 0;  // exit code, or the signal
+  int code = 0;  // exit code (127 if argv[0] cannot run), or the signal
   bool succeeded() const { return kind == Kind::exited && code == 0; }
 };
 
@@ -24,7 +24,7 @@ struct ProcessEnd {
 using Stop = std::function<bool()>;
 
 // Runs argv[0] with its output going to `log`, and waits. Kills the child and its descendants at a limit or when `stop`
-// returns true. The kernel kills the child if the calling thread ends. Throws RunError if no process can be started.
+// returns true. The kernel kills the child if the calling thread ends. Throws RunError if no process can be created.
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
                        const ProcessLimits& limits, const Stop& stop);
 

@@ -47,7 +47,7 @@ struct ValueList {
 // Throws ConfigError at `at` for an unknown unit; "" is allowed.
 void check_unit(const std::string& unit, const Config& at);
 
-// Converts "10 MPa" to the given unit; empty if the text is not a quantity of its dimension.
+// Converts "10 MPa" to the given unit; empty if the text is not a quantity of the unit's dimension.
 std::optional<double> number_in(const std::string& text, const std::string& unit);
 
 // Reads a range and converts both ends to one unit: that of the section, otherwise that of `from`.
