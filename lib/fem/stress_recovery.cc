@@ -75,7 +75,13 @@ std::optional<StressRecovery::NodalValue> StressRecovery::at_node_of_region(std:
   const auto found = std::find(recovery.nodes().begin(), recovery.nodes().end(), node);
   if (found == recovery.nodes().end()) return std::nullopt;
   const auto row = static_cast<int>(found - recovery.nodes().begin());
-  const Vec6 value = recovery.at_node(row, [&](int k, int p) { return pick(term.observe_point(k, p, s)); });
+  int observed = -1;
+  std::vector<PointObservation> points;  // of element `observed`
+  const Vec6 value = recovery.at_node(row, [&](int k, int p) {
+    if (k != observed) points = term.observe_element(k, s);
+    observed = k;
+    return pick(points[static_cast<std::size_t>(p)]);
+  });
   return NodalValue{value, recovery.inside()[static_cast<std::size_t>(row)] != 0};
 }
 

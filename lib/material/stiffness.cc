@@ -32,6 +32,7 @@ OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c) {
 }
 
 double bulk_modulus(const Stiffness& c) {
+  if (const auto* isotropic = std::get_if<IsotropicStiffness>(&c)) return isotropic->lambda + 2 * isotropic->mu / 3;
   const Mat6 compliance = voigt(c).inverse();
   return 1 / compliance.topLeftCorner<3, 3>().sum();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/core/types.h"
+#include "lib/material/stiffness.h"
 
 namespace orthodyn {
 
@@ -13,7 +14,12 @@ struct StiffnessContrast {
 // `stiffness`: Voigt form (stiffness.h), Pa. Precondition: positive definite.
 StiffnessContrast stiffness_contrast(const Mat6& stiffness);
 
-// True if volumetric, with a ratio at which the stresses of elements in the displacement formulation are wrong.
-bool is_nearly_incompressible(const Mat6& stiffness);
+// True if volumetric, with a ratio at which the stresses of elements in the displacement formulation are wrong, and if
+// the mixed formulation at least halves the contrast.
+bool is_nearly_incompressible(const Stiffness& stiffness);
+
+// The largest eigenvalue of C - kappa I (x) I (without_bulk()) over the smallest of C: the contrast that the mixed
+// formulation leaves.
+double contrast_without_bulk(const Stiffness& stiffness);
 
 }  // namespace orthodyn

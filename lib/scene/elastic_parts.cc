@@ -64,7 +64,7 @@ bool is_mixed(const Scene& scene, const Region& region, const Material& material
   if (region.formulation == Formulation::mixed && !obstacle.empty())
     region.origin.fail("formulation: mixed is not available " + obstacle);
   return obstacle.empty() &&
-         (region.formulation == Formulation::mixed || is_nearly_incompressible(voigt(material.stiffness())));
+         (region.formulation == Formulation::mixed || is_nearly_incompressible(material.stiffness()));
 }
 
 // Axes turned by `angle` (rad) about their axis 3.

@@ -12,6 +12,7 @@ struct Hex8 {
   static constexpr CellShape kShape = CellShape::hex8;
   static constexpr int kNodes = 8, kPoints = 8, kDegree = 1;
   static constexpr std::array<double, kNodes> kLumpedShares{.125, .125, .125, .125, .125, .125, .125, .125};
+  static constexpr int kPressures = 0;
   static constexpr double kLumpedToConsistent = 27;  // of a parallelepiped: 3 in each direction
 
   // Corner `a` of [-1, 1]^3; Gauss points are the corners of a cube 1/sqrt(3) as large.

@@ -179,6 +179,39 @@ TEST_P(Mixed, PassesThePatchTest) {
   }
 }
 
+// Also in strongly compressed elements, which have no batch version.
+TEST_P(Mixed, ObservesTheSameOfAllPointsAndOfOne) {
+  for (const double stretch : {0.15, 0.9}) {
+    const BuiltTestScene s = scene_of(cube(GetParam(), 1, 0), kFibres);
+    Random random(708);
+    const Vector q =
+        s.dofs([&](const Vec3& x) { return Vec3((stretch - 1) * x); }) + random_dofs(random, s.size(), 0.01 * stretch);
+    const NodalExpansion nodal(s.model().parts(), 0, q, s.zero());
+    const ElasticTerm& term = *s.model().parts().elastic.front();
+    int visited = 0;
+    term.observe_points(nodal.state(), [&](int k, int p, const PointObservation& all) {
+      const Mat3 one = term.observe_point(k, p, nodal.state()).cauchy;
+      EXPECT_LT((all.cauchy - one).norm(), 1e-9 * one.norm()) << stretch;
+      ++visited;
+    });
+    EXPECT_EQ(visited, term.size() * term.num_points());
+  }
+}
+
+// The predicted stress of a large change is that of the state itself if the change is none.
+TEST_P(Mixed, HasTheExactTangentWithStressesPredictedFromTheSameState) {
+  const BuiltTestScene s = scene_of(cube(GetParam(), 1, 0), kFibres);
+  Random random(709);
+  const Vector q = random_dofs(random, s.size(), 0.05);
+  const NodalExpansion nodal(s.model().parts(), 0, q, s.zero());
+  const ElasticTerm& term = *s.model().parts().elastic.front();
+  std::vector<double> exact(s.model().pattern().row.size(), 0), predicted = exact;
+  term.add_tangent(nodal.state(), TangentKind::exact, exact.data(), nullptr);
+  term.add_mixed_tangent(nodal.state(), nodal.state(), predicted.data());
+  const Eigen::Map<const Vector> a(exact.data(), std::ssize(exact)), b(predicted.data(), std::ssize(predicted));
+  EXPECT_LT((a - b).norm(), 1e-11 * a.norm());
+}
+
 // With a held surface, min over pressures p without constant part of max over u of (p, div u)^2 / (|p|^2 |u|^2), |u|
 // the norm of the deviatoric energy. Elements satisfy the inf-sup condition if this number does not tend to zero with
 // the cell size (Chapelle & Bathe 1993, Comput. Struct. 47, 537); without the condition it does, or pressures without

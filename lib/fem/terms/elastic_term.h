@@ -72,6 +72,9 @@ class ElasticTerm : public Term {
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
 
+  // observe_point() at all points of element k.
+  virtual std::vector<PointObservation> observe_element(int k, const NodalState& s) const = 0;
+
   // Calls visit(k, point, observation) for all points, concurrently for different elements. Much faster than
   // observe_point().
   using VisitPoint = std::function<void(int k, int point, const PointObservation& observation)>;

@@ -150,7 +150,7 @@ class ElasticTermOf : public ElasticTerm {
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
         auto own = out.col(k * num_points() + p);
-        if (!good[l]) own = voigt_strain<double>(observe_point(k, p, s).strain);
+        if (!good[l]) own = voigt_strain<double>(ElasticTermOf::observe_point(k, p, s).strain);
         else
           for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
       }
@@ -174,13 +174,19 @@ class ElasticTermOf : public ElasticTerm {
     return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p));
   }
 
+  std::vector<PointObservation> observe_element(int k, const NodalState& s) const override {
+    std::vector<PointObservation> all;
+    for (int p = 0; p < num_points(); ++p) all.push_back(ElasticTermOf::observe_point(k, p, s));
+    return all;
+  }
+
   void observe_points(const NodalState& s, const VisitPoint& visit) const override {
     for_each_gradient(s.u, [&](int b, int p, const Mat3T<Batch>& H) {
       Batch::Mask good;
       const auto all = law_.batch_observe(H, axes().batch(b, p), good);
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
-        visit(k, p, good[l] ? lane_of(all, l) : observe_point(k, p, s));
+        visit(k, p, good[l] ? lane_of(all, l) : ElasticTermOf::observe_point(k, p, s));
       }
     });
   }

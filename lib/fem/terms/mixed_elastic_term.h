@@ -13,6 +13,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 
 #include "lib/fem/terms/elastic_term_of.h"
 #include "lib/fem/terms/volume_projection.h"
@@ -27,7 +28,9 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
                      double kappa, const BlockPattern& pattern, const IntegrationRule* rule)
       : Base(type, mesh, std::move(region), law, pattern, rule),
         kappa_(kappa),
-        projection_(type, mesh, this->definition().cells, elements_) {}
+        projection_(type, mesh, this->definition().cells, elements_) {
+    if (num_points() > static_cast<int>(kMostPoints)) throw std::logic_error("raise kMostPoints");
+  }
 
   std::string description() const override { return Base::description() + ", mixed formulation"; }
   std::size_t bytes() const override { return Base::bytes() + projection_.bytes(); }
@@ -59,11 +62,16 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
-    this->add_tangents(s, kind, K, D, [&](int b) { return TangentPart(*this, b, s.u, kind); });
+    this->add_tangents(s, kind, K, D, [&](int b) {
+      const Volume volume = volume_at(b, s.u);
+      return TangentPart(*this, b, volume, stress_of(volume, {}), kind);
+    });
   }
 
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    this->add_mixed_tangents(before, s, K, [&](int b) { return TangentPart(*this, b, s.u, TangentKind::exact); });
+    this->add_mixed_tangents(before, s, K, [&](int b) {
+      return TangentPart(*this, b, volume_at(b, s.u), predicted_stress(b, before.u, s.u), TangentKind::exact);
+    });
   }
 
   double energy(const NodalState& s) const override {
@@ -79,25 +87,29 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
   Eigen::Matrix<double, 6, Eigen::Dynamic> stresses(const NodalState& s) const override {
     const Mat6 C = voigt(without_bulk_of_definition());
     Eigen::Matrix<double, 6, Eigen::Dynamic> out = C * Base::strains(s);
-    for_each_stress(s, [&](int k, int p, double stress, const VolumeStrain<Batch>&) {
-      out.col(k * num_points() + p).template head<3>().array() += stress;
-    });
+    for_each_stress(
+        s, [&](int k, int p, double stress) { out.col(k * num_points() + p).template head<3>().array() += stress; });
     return out;
   }
 
   PointObservation observe_point(int k, int p, const NodalState& s) const override {
-    PointObservation out = Base::observe_point(k, p, s);
+    return observe_element(k, s)[static_cast<std::size_t>(p)];
+  }
+
+  std::vector<PointObservation> observe_element(int k, const NodalState& s) const override {
+    std::vector<PointObservation> all = Base::observe_element(k, s);
     const int b = k / Batch::kLanes;
     const Coefficients stress = stress_of(volume_at(b, s.u), {});
-    add_stress(elements_.gradient(k, p, s.u), axes().of(k, p), projection_.at(b, p, stress)[k % Batch::kLanes], out);
-    return out;
+    for (int p = 0; p < num_points(); ++p)
+      add_stress(elements_.gradient(k, p, s.u), axes().of(k, p), projection_.at(b, p, stress)[k % Batch::kLanes],
+                 all[static_cast<std::size_t>(p)]);
+    return all;
   }
 
   void observe_points(const NodalState& s, const ElasticTerm::VisitPoint& visit) const override {
     std::vector<double> stress(static_cast<std::size_t>(this->size() * num_points()));
-    for_each_stress(s, [&](int k, int p, double value, const VolumeStrain<Batch>&) {
-      stress[static_cast<std::size_t>(k * num_points() + p)] = value;
-    });
+    for_each_stress(
+        s, [&](int k, int p, double value) { stress[static_cast<std::size_t>(k * num_points() + p)] = value; });
     Base::observe_points(s, [&](int k, int p, PointObservation observation) {
       add_stress(elements_.gradient(k, p, s.u), axes().of(k, p), stress[static_cast<std::size_t>(k * num_points() + p)],
                  observation);
@@ -168,17 +180,31 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     }
   }
 
-  // d t_i / dt. Precondition: damped().
-  Coefficients rate_of(int b, const NodalState& s, const Volume& volume) const {
-    Coefficients rate;
-    rate.fill(Batch(0));
-    const Columns v = elements_.differences(b, s.v);
+  // The change of the coefficients t_i by a small displacement d, or their rate for a velocity d.
+  Coefficients change_along(int b, const Columns& d, const Volume& volume) const {
+    Coefficients change;
+    change.fill(Batch(0));
     for (int p = 0; p < num_points(); ++p) {
       const Mat3T<Batch>& gradient = volume.at[static_cast<std::size_t>(p)].gradient;
-      projection_.add(b, p, elements_.volumes(b, p) * contract<Batch>(gradient, elements_.gradients(b, p, v)), rate);
+      projection_.add(b, p, elements_.volumes(b, p) * contract<Batch>(gradient, elements_.gradients(b, p, d)), change);
     }
-    return rate;
+    return change;
   }
+
+  // d t_i / dt. Precondition: damped().
+  Coefficients rate_of(int b, const NodalState& s, const Volume& volume) const {
+    return change_along(b, elements_.differences(b, s.v), volume);
+  }
+
+  // The volumetric stress of the displacement u, linear in u - u0 (mixed_tangent() of corotational_law.h).
+  Coefficients predicted_stress(int b, const NodalVector& u0, const NodalVector& u) const {
+    Volume volume = volume_at(b, u0);
+    const Columns d = elements_.differences(b, u) - elements_.differences(b, u0);
+    const Coefficients change = change_along(b, d, volume);
+    for (std::size_t i = 0; i < change.size(); ++i) volume.strain[i] += change[i];
+    return stress_of(volume, {});
+  }
+
   std::optional<Coefficients> with_rate(int b, const NodalState& s, const Volume& volume) const {
     if (!damped()) return {};
     return rate_of(b, s, volume);
@@ -213,16 +239,14 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     return sum;
   }
 
-  // Calls visit(k, p, s, theta) for all elements and points with the elastic volumetric stress s.
+  // Calls visit(k, p, s) for all elements and points with the elastic volumetric stress s.
   template <class Visit>
   void for_each_stress(const NodalState& s, Visit&& visit) const {
     loops_.for_each_batch([&](int b) {
-      const Volume volume = volume_at(b, s.u);
-      const Coefficients stress = stress_of(volume, {});
+      const Coefficients stress = stress_of(volume_at(b, s.u), {});
       for (int p = 0; p < num_points(); ++p) {
         const Batch at = projection_.at(b, p, stress);
-        loops_.for_each_of(b,
-                           [&](int k) { visit(k, p, at[k % Batch::kLanes], volume.at[static_cast<std::size_t>(p)]); });
+        loops_.for_each_of(b, [&](int k) { visit(k, p, at[k % Batch::kLanes]); });
       }
     });
   }
@@ -234,12 +258,9 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
   // The part of a batch's tangent that the volumetric stress adds.
   class TangentPart {
    public:
-    TangentPart(const MixedElasticTermOf& term, int b, const NodalVector& u, TangentKind kind)
-        : term_(term),
-          b_(b),
-          volume_(term.volume_at(b, u)),
-          stress_(term.stress_of(volume_, {})),
-          has_curvature_(kind == TangentKind::exact) {
+    TangentPart(const MixedElasticTermOf& term, int b, const Volume& volume, const Coefficients& stress,
+                TangentKind kind)
+        : term_(term), b_(b), volume_(volume), stress_(stress), has_curvature_(kind == TangentKind::exact) {
       for (std::size_t i = 0; i < kTerms; ++i)
         for (int p = 0; p < term.num_points(); ++p)
           term.elements_.add_forces(b, p,

@@ -79,8 +79,9 @@ std::string flat_cells(const FemModel& model, const State& state) {
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
   const int order = model.parts().mesh.order();
   for (const auto& term : model.parts().elastic) {
-    const auto [ratio, volumetric] = stiffness_contrast(term->stiffness());
-    if (volumetric && term->definition().mixed) continue;
+    const ElasticRegion& region = term->definition();
+    const auto [ratio, volumetric] = region.mixed ? StiffnessContrast{contrast_without_bulk(region.stiffness), false}
+                                                  : stiffness_contrast(term->stiffness());
     if (by_finer_elements && volumetric) continue;
     if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
     return fmt::format(
