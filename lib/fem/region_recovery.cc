@@ -164,19 +164,23 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& 
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
     const Vec3 centre = node_places_.col(row);
-    const double smallest = has_superconvergent_points ? kSmallestOfHexahedra : kSmallest;
-    Fit found = fit(places_of(elements), centre, degree_, smallest);
-    const bool is_enough = has_superconvergent_points && found.rank >= kBilinear;
+    Fit found = fit(places_of(elements), centre, degree_);
+    bool is_enough = false;
+    if (has_superconvergent_points) {
+      Fit own = fit(places_of(elements), mean_of(places_of(elements)), degree_, kSmallestOfHexahedra);
+      is_enough = own.rank >= kBilinear;
+      if (is_enough) found = std::move(own);
+    }
     for (int ring = 0; ring < kMostRings && !is_enough && !(found.has_full_rank() && found.has_enough_points); ++ring) {
       std::vector<int> larger = elements;
       if (!neighbours.grow(row, larger)) break;
-      Fit wider = fit(places_of(larger), centre, degree_, smallest);
+      Fit wider = fit(places_of(larger), centre, degree_);
       // Neighbours do not help where all points lie in two layers; a wider patch would only be less accurate.
       if (found.has_enough_points && wider.rank == found.rank) break;
       elements = std::move(larger);
       found = std::move(wider);
     }
-    if (!found.has_full_rank()) found = fit(places_of(elements), mean_of(places_of(elements)), degree_, smallest);
+    if (!is_enough && !found.has_full_rank()) found = fit(places_of(elements), mean_of(places_of(elements)), degree_);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
     elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found.patch), {}});

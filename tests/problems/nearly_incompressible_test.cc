@@ -99,9 +99,11 @@ double stress_error(const BuiltTestScene& s) {
 class Cylinder : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Kind, Cylinder, testing::ValuesIn(kKinds), [](const auto& one) { return one.param.name; });
 
+// Constant pressures of tetrahedra are of first order.
 TEST_P(Cylinder, HasLamesStressesAtEachPoissonsRatio) {
+  const double limit = std::string_view(GetParam().name) == "tet10" ? 0.02 : 0.01;
   for (const double nu : {0.3, 0.49, 0.499, 0.4999})
-    EXPECT_LT(stress_error(cylinder(GetParam(), 8, nu, "mixed")), 0.01) << nu;
+    EXPECT_LT(stress_error(cylinder(GetParam(), 8, nu, "mixed")), limit) << nu;
 }
 
 TEST_P(Cylinder, LosesNothingWhereTheMaterialIsCompressible) {
@@ -109,10 +111,10 @@ TEST_P(Cylinder, LosesNothingWhereTheMaterialIsCompressible) {
   EXPECT_LT(mixed, 1.15 * stress_error(cylinder(GetParam(), 4, 0.3, "displacement")));
 }
 
-// The reason for the mixed formulation. Hexahedra of 20 nodes have reduced integration, which also avoids locking.
-TEST_P(Cylinder, HasWrongStressesWithDisplacementsAlone) {
-  if (std::string_view(GetParam().name) == "hex20") GTEST_SKIP();
-  EXPECT_GT(stress_error(cylinder(GetParam(), 8, 0.4999, "displacement")), 0.05);
+// The reason for the mixed formulation.
+TEST(NearlyIncompressible, HasWrongStressesWithDisplacementsAlone) {
+  EXPECT_GT(stress_error(cylinder(kKinds[0], 8, 0.4999, "displacement")), 0.04);  // tetrahedra
+  EXPECT_GT(stress_error(cylinder(kKinds[2], 8, 0.4999, "displacement")), 1);     // hexahedra of 27 nodes
 }
 
 // Pressure changes the shape of a nearly incompressible orthotropic body: its strain is -p S : I with the compliance S.
@@ -120,7 +122,7 @@ TEST(NearlyIncompressible, HasTheStrainOfAnisotropicBodiesUnderPressure) {
   const BuiltTestScene s(
       "mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}\nmaterials: {m: {type: orthotropic, density: 1, young: "
       "[4e6, "
-      "1e6, 1e6], nu12: 0.499, nu23: 0.873, nu31: 0.1249, g12: 4e5, g23: 3e5, g13: 5e5}}\nregions: {all: {material: m, "
+      "1e6, 1e6], nu12: 0.52, nu23: 0.855, nu31: 0.1249, g12: 4e5, g23: 3e5, g13: 5e5}}\nregions: {all: {material: m, "
       "formulation: mixed}}\nanalysis: static\nelasticity: {kinematics: linear}\nclamps: [{surface: x0, components: "
       "[x]}, {surface: y0, components: [y]}, {surface: z0, components: [z]}]\nterms: [{type: pressure, pressure: "
       "1000}]\n");

@@ -17,7 +17,8 @@ namespace orthodyn {
 namespace {
 
 constexpr double kMaxFinerUnknowns = 120'000;
-constexpr double kMaxShapeEntries = 5e6;  // of mode shapes in finer elements
+constexpr double kMaxFactorised = 40'000;  // of finer mixed elements, whose matrix is factorised
+constexpr double kMaxShapeEntries = 5e6;   // of mode shapes in finer elements
 
 // Calls `work`, which uses finer elements. Returns false if it fails, because a failed estimate must not fail the
 // computation.
@@ -120,11 +121,8 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  // Displacements of mixed elements that finer ones take over change the volume of these, which has a large energy.
-  const auto is_mixed = [](const auto& term) { return term->definition().mixed; };
-  const auto& elastic = model.parts().elastic;
-  if (std::any_of(elastic.begin(), elastic.end(), is_mixed)) return false;
-  return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
+  const double most = has_mixed_elements(model) ? kMaxFactorised : kMaxFinerUnknowns;
+  return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= most;
 }
 
 StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,

@@ -98,6 +98,11 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
   lift_.setFromTriplets(entries.begin(), entries.end());
 }
 
+bool has_mixed_elements(const FemModel& model) {
+  const auto& elastic = model.parts().elastic;
+  return std::any_of(elastic.begin(), elastic.end(), [](const auto& term) { return term->definition().mixed; });
+}
+
 double FinerModel::estimated_unknowns(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
 
 // Nodes of the coarse mesh keep their numbers.

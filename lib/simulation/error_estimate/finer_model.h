@@ -10,6 +10,9 @@
 
 namespace orthodyn {
 
+// True if a region has the mixed formulation.
+bool has_mixed_elements(const FemModel& model);
+
 class FinerModel {
  public:
   // `coarse`: the model of the scene, which must outlive the object. Throws ConfigError if the scene cannot be built

@@ -47,12 +47,18 @@ class FinerSystem {
     const FemModel& model = finer.coarse();
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
+    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
+    if (has_mixed_elements(model)) {
+      direct_ = make_solver_for(finer.model().pattern());
+      if (direct_->factor(values_.shifted.data()) != FactorStatus::ok)
+        throw RunError("the tangent of the finer elements cannot be factorised");
+      return;
+    }
     coarse_values_ = matrices(model, coarse, shift).shifted;
     coarse_ = make_solver_for(model.pattern());
     coarse_->set_tolerance({kAccuracy, 0});
     if (coarse_->factor(coarse_values_.data()) != FactorStatus::ok)
       throw RunError("the tangent cannot be factorised: it is singular or unstable");
-    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
     solver_ =
         std::make_unique<TwoLevelSolver>(finer.model().pattern(), values_.shifted, [this](const ConstVectorRef& b) {
           Vector x = finer_.lower(b);
@@ -63,6 +69,15 @@ class FinerSystem {
 
   // One solution for each column of b.
   std::vector<TwoLevelSolver::Solution> solve(const Eigen::MatrixXd& b) const {
+    if (direct_) {
+      std::vector<TwoLevelSolver::Solution> all;
+      for (Eigen::Index k = 0; k < b.cols(); ++k) {
+        Vector x(b.rows());
+        direct_->solve(Vector(b.col(k)), x);
+        all.push_back({x, x.dot(b.col(k)), 0, true});
+      }
+      return all;
+    }
     return solver_->solve(b, kAccuracy, kMaxIterations);
   }
   Vector stiffness_times(const Vector& x) const {
@@ -79,7 +94,18 @@ class FinerSystem {
   std::unique_ptr<LinearSolver> coarse_;
   Matrices values_;
   std::unique_ptr<TwoLevelSolver> solver_;
+  std::unique_ptr<LinearSolver> direct_;  // for mixed elements, whose coarse displacements approximate no finer ones
 };
+
+// The change of the elastic energy (J) by which the finer elements differ from the coarse ones at the same
+// displacement: round-off for displacement elements, but mixed elements that take over a displacement change their
+// volume.
+double energy_of_lift(const FinerModel& finer, const State& coarse, const Vector& q) {
+  if (!has_mixed_elements(finer.coarse())) return 0;
+  const Vector still = Vector::Zero(q.size());
+  return finer.model().evaluate("energy.elastic", {coarse.t, q, still, coarse.load_factor})[0] -
+         finer.coarse().evaluate("energy.elastic", coarse)[0];
+}
 
 // Acceleration with the consistent mass, with which forces that the coarse elements resolve leave no residual in the
 // finer elements.
@@ -181,7 +207,8 @@ StateError state_error(const FinerModel& finer, const State& coarse, bool in_mot
   const int order = finer.coarse().parts().mesh.order();
   NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
   fine.parts().dofs->add_to(found.x, correction);
-  StateError out{extrapolation(order) * 0.5 * found.energy, {}, {}};
+  const double energy = std::abs(0.5 * found.energy - energy_of_lift(finer, coarse, system.q()));
+  StateError out{extrapolation(order) * energy, {}, {}};
   for (const int node : nodes) out.displacements.emplace_back(extrapolation(order) * correction.col(node));
   const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
   for (const auto& [field, at] : fields) {
