@@ -32,9 +32,10 @@ std::string with(std::string text, const std::string& cells, int order) {
   return text;
 }
 
-std::string block(const std::string& size, const std::string& material, const std::string& rest) {
+std::string block(const std::string& size, const std::string& material, const std::string& rest,
+                  const char* elements = "tetrahedra") {
   return "analysis: static\nelasticity: {kinematics: linear}\nmesh: {type: box, size: " + size +
-         ", cells: CELLS, order: ORDER, elements: tetrahedra}\nmaterials: {m: " + material + "}\n" + rest;
+         ", cells: CELLS, order: ORDER, elements: " + elements + "}\nmaterials: {m: " + material + "}\n" + rest;
 }
 
 std::string isotropic(double nu) { return fmt::format("{{type: isotropic, density: 1000, young: 1e9, nu: {}}}", nu); }
@@ -56,6 +57,10 @@ std::vector<Body> bodies() {
       {"a plate 10 to 1", block("[0.4, 0.3, 0.04]", kSpruce, kPressed), "[8, 6, 1]", "[16, 12, 3]", 2, middle, 2},
       {"a plate 100 to 1", block("[0.4, 0.3, 0.004]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
       {"a plate 200 to 1", block("[0.4, 0.3, 0.002]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
+      {"a plate 100 to 1, hexahedra", block("[0.4, 0.3, 0.004]", kSpruce, kPressed, "hexahedra"), "[8, 6, 1]",
+       "[24, 18, 2]", 2, middle, 2},
+      {"a plate 200 to 1, hexahedra", block("[0.4, 0.3, 0.002]", kSpruce, kPressed, "hexahedra"), "[8, 6, 1]",
+       "[24, 18, 2]", 2, middle, 2},
       {"a beam 10 to 1", block("[1, 0.1, 0.1]", isotropic(0.3), kBent), "[10, 2, 2]", "[16, 2, 2]", 1, tip, 2},
       {"a beam 10 to 1, quadratic", block("[1, 0.1, 0.1]", kSpruce, kBent), "[8, 1, 1]", "[20, 3, 3]", 2, tip, 2},
       {"nu 0.49", block("[0.5, 0.1, 0.4]", isotropic(0.49), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},

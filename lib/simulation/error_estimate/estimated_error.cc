@@ -17,8 +17,8 @@ namespace orthodyn {
 namespace {
 
 constexpr double kMaxFinerUnknowns = 120'000;
-constexpr double kMaxFactorised = 40'000;  // of finer mixed elements, whose matrix is factorised
-constexpr double kMaxShapeEntries = 5e6;   // of mode shapes in finer elements
+constexpr double kMaxFinerMixedUnknowns = 40'000;  // whose matrix is factorised
+constexpr double kMaxShapeEntries = 5e6;           // of mode shapes in finer elements
 
 // Calls `work`, which uses finer elements. Returns false if it fails, because a failed estimate must not fail the
 // computation.
@@ -121,7 +121,10 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  const double most = has_mixed_elements(model) ? kMaxFactorised : kMaxFinerUnknowns;
+  const auto is_mixed = [](const auto& term) { return term->definition().mixed; };
+  const auto& elastic = model.parts().elastic;
+  const double most =
+      std::any_of(elastic.begin(), elastic.end(), is_mixed) ? kMaxFinerMixedUnknowns : kMaxFinerUnknowns;
   return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= most;
 }
 

@@ -98,9 +98,11 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
   lift_.setFromTriplets(entries.begin(), entries.end());
 }
 
-bool has_mixed_elements(const FemModel& model) {
+bool is_nested(const FemModel& model) {
   const auto& elastic = model.parts().elastic;
-  return std::any_of(elastic.begin(), elastic.end(), [](const auto& term) { return term->definition().mixed; });
+  return std::none_of(elastic.begin(), elastic.end(), [](const auto& term) {
+    return term->definition().mixed || (term->type().shape() == CellShape::hex20 && term->num_points() == 8);
+  });
 }
 
 double FinerModel::estimated_unknowns(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }

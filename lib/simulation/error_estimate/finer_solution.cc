@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kAccuracy = 0.02;  // relative accuracy of the correction's energy
 constexpr int kMaxIterations = 300;
-constexpr double kFreeShift = 1e-10;  // shift over the largest squared frequency, for free bodies
+constexpr int kMaxFactorised = 40'000;  // unknowns of finer elements that are not nested
+constexpr double kFreeShift = 1e-10;    // shift over the largest squared frequency, for free bodies
 
 // Ratio of the energy of the whole error to the part that finer elements resolve. This energy is proportional to h^p
 // with the cell size h and p from 1 (edges, corners) to 4 (smooth solution, quadratic elements), so that halving h
@@ -48,7 +49,7 @@ class FinerSystem {
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
     values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
-    if (has_mixed_elements(model)) {
+    if (!is_nested(model) && finer.model().num_dofs() <= kMaxFactorised) {
       direct_ = make_solver_for(finer.model().pattern());
       if (direct_->factor(values_.shifted.data()) != FactorStatus::ok)
         throw RunError("the tangent of the finer elements cannot be factorised");
@@ -94,14 +95,13 @@ class FinerSystem {
   std::unique_ptr<LinearSolver> coarse_;
   Matrices values_;
   std::unique_ptr<TwoLevelSolver> solver_;
-  std::unique_ptr<LinearSolver> direct_;  // for mixed elements, whose coarse displacements approximate no finer ones
+  std::unique_ptr<LinearSolver> direct_;  // if the elements are not nested
 };
 
-// The change of the elastic energy (J) by which the finer elements differ from the coarse ones at the same
-// displacement: round-off for displacement elements, but mixed elements that take over a displacement change their
-// volume.
+// The elastic energy (J) of the finer elements minus that of the coarse ones at the same displacement; zero if the
+// elements are nested.
 double energy_of_lift(const FinerModel& finer, const State& coarse, const Vector& q) {
-  if (!has_mixed_elements(finer.coarse())) return 0;
+  if (is_nested(finer.coarse())) return 0;
   const Vector still = Vector::Zero(q.size());
   return finer.model().evaluate("energy.elastic", {coarse.t, q, still, coarse.load_factor})[0] -
          finer.coarse().evaluate("energy.elastic", coarse)[0];
