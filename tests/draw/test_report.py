@@ -128,7 +128,7 @@ class TheNumbers(OfAComparison):
         content = self.small(problems=2, methods=2, points=2)
         content["answers"] = [{"problem": content["problems"][0]["id"], "error": "displacement.l2", "target": 1e-2,
                                "methods": [{"method": "cvode_bdf", "seconds": 1.0}]}]
-        self.assertIn("cvode_bdf on damped_beam; nobody reached it on free_flight.", Page(self.html(content)).text)
+        self.assertIn("cvode_bdf on damped_beam; no method reached it on free_flight.", Page(self.html(content)).text)
 
     def test_markers_stand_at_their_runs_values(self):
         read = self.read(self.small())
