@@ -99,8 +99,9 @@ Mat6 voigt(const Stiffness& c);
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c);
 IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c);
 
-// The bulk modulus kappa = 1 / (I : S : I), Pa, with the compliance S: pressure p changes the volume by the fraction
-// -p / kappa, whatever it does to the shape (Vergori, Destrade, McGarry & Ogden 2013, Computational Mechanics 52, 959).
+// The bulk modulus kappa = 1 / (I : S : I), Pa, with the compliance S. A pressure p changes the volume by the fraction
+// -p / kappa; the shape of an anisotropic body changes, too (Vergori, Destrade, McGarry & Ogden 2013, Computational
+// Mechanics 52, 959).
 double bulk_modulus(const Stiffness& c);
 
 // C' = C - kappa I (x) I, positive semidefinite for kappa (Pa) <= bulk_modulus(C). If they are equal, C' : S : I = 0:

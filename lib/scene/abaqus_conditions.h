@@ -18,7 +18,7 @@ struct SceneConditions {
   std::vector<std::string> clamps = {}, motions = {}, loads = {}, terms = {};
   bool is_linear = false;                  // the first step has no NLGEOM, or NLGEOM=NO
   std::optional<double> end = {};          // end of the first step (s); empty if no amplitude became a table
-  std::vector<std::string> left_out = {};  // what was not converted: "*CLOAD (line 12): ..."
+  std::vector<std::string> left_out = {};  // keywords that were not converted: "*CLOAD (line 12): ..."
 };
 
 // Converts the conditions of the model and of its first step. `loaded`: the mesh of the same file, converted to SI

@@ -66,8 +66,8 @@ std::string with_kinematics(const char* kinematics) {
 
 double order(double error, double error_of_half) { return std::log2(error / error_of_half); }
 
-// The force is minus the derivative of the energy, and the stiffness minus that of the force. Central differences have
-// an error of order 2 in the step.
+// The force is minus the derivative of the energy, and the stiffness is minus the derivative of the force. Central
+// differences have an error of order 2 in the step.
 TEST_P(Mixed, HasExactDerivatives) {
   for (const char* kinematics : kKinematics)
     for (const std::string& material : {isotropic(0.4999), kFibres}) {
@@ -198,7 +198,7 @@ TEST_P(Mixed, ObservesTheSameOfAllPointsAndOfOne) {
   }
 }
 
-// The predicted stress of a large change is that of the state itself if the change is none.
+// Stresses predicted from a state for this same state are its own, so that the tangent is the exact one.
 TEST_P(Mixed, HasTheExactTangentWithStressesPredictedFromTheSameState) {
   const BuiltTestScene s = scene_of(cube(GetParam(), 1, 0), kFibres);
   Random random(709);

@@ -53,8 +53,8 @@ time: {{end: 10}}
   const auto outcome =
       run(scene.model(), *method, scene.built.initial, {scene.scene.time.end, {}, false}, {&energy}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
-  // The relative error of the energy is that of the state, 1e-5^(2/3) = 5e-4, summed over about ten
-  // oscillations before they are damped out.
+  // Each oscillation adds a relative energy error of 1e-5^(2/3) = 5e-4, the error of the state. Damping leaves about
+  // ten oscillations.
   EXPECT_TRUE(std::isfinite(energy.last().balance()));
   EXPECT_LE(energy.drift(), 5e-3 * initial);
   // Damping leaves exp(-10) of the vibration; the remainder is the elastic energy of inverted elements.

@@ -237,7 +237,8 @@ class ElasticTermOf : public ElasticTerm {
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
-  // A part of the tangent besides that of the law, for one batch: of nothing here, see mixed_elastic_term.h.
+  // The part that add_tangents() adds to the law's tangent in one batch: nothing. MixedElasticTermOf has another such
+  // class for the volumetric stress.
   struct NothingElse {
     template <class Form>
     void add_to(int, Form&) const {}

@@ -24,7 +24,7 @@ class VolumeProjection {
   // One number per polynomial.
   using Coefficients = std::array<Batch, static_cast<std::size_t>(kTerms)>;
 
-  // `cells`: those of `elements`, in the same order. The arguments need not outlive this object.
+  // `cells`: the cells from which `elements` was made, in the same order. The arguments need not outlive this object.
   VolumeProjection(const ElementType& type, const ElementMesh& mesh, const std::vector<int>& cells,
                    const ElementBatches<E>& elements)
       : num_points_(elements.num_points()),

@@ -98,8 +98,8 @@ class FinerSystem {
   std::unique_ptr<LinearSolver> direct_;  // if the elements are not nested
 };
 
-// The elastic energy (J) of the finer elements minus that of the coarse ones at the same displacement; zero if the
-// elements are nested.
+// At the coarse displacement q, lifted to the finer elements: their elastic energy minus the energy of the coarse
+// elements, J. Zero if the elements are nested.
 double energy_of_lift(const FinerModel& finer, const State& coarse, const Vector& q) {
   if (is_nested(finer.coarse())) return 0;
   const Vector still = Vector::Zero(q.size());
