@@ -9,9 +9,8 @@
 namespace orthodyn {
 
 struct AbaqusScene {
-  std::string text;  // YAML
-  std::vector<std::string>
-      left_out;  // keywords that were not converted, with line numbers; `text` repeats it in comments
+  std::string text;                   // YAML
+  std::vector<std::string> left_out;  // keywords not converted, with line numbers; `text` repeats it in comments
 };
 
 // Whether the scene is static, and the units of the file.

@@ -121,10 +121,7 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  const auto is_mixed = [](const auto& term) { return term->definition().mixed; };
-  const auto& elastic = model.parts().elastic;
-  const double most =
-      std::any_of(elastic.begin(), elastic.end(), is_mixed) ? kMaxFinerMixedUnknowns : kMaxFinerUnknowns;
+  const double most = is_mixed(model) ? kMaxFinerMixedUnknowns : kMaxFinerUnknowns;
   return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= most;
 }
 

@@ -98,10 +98,15 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
   lift_.setFromTriplets(entries.begin(), entries.end());
 }
 
+bool is_mixed(const FemModel& model) {
+  const auto& elastic = model.parts().elastic;
+  return std::any_of(elastic.begin(), elastic.end(), [](const auto& term) { return term->definition().mixed; });
+}
+
 bool is_nested(const FemModel& model) {
   const auto& elastic = model.parts().elastic;
-  return std::none_of(elastic.begin(), elastic.end(), [](const auto& term) {
-    return term->definition().mixed || (term->type().shape() == CellShape::hex20 && term->num_points() == 8);
+  return !is_mixed(model) && std::none_of(elastic.begin(), elastic.end(), [](const auto& term) {
+    return term->type().shape() == CellShape::hex20 && term->num_points() == 8;
   });
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAccuracy = 0.02;  // relative accuracy of the correction's energy
 constexpr int kMaxIterations = 300;
-constexpr int kMaxFactorised = 40'000;  // unknowns of finer elements that are not nested
+constexpr int kMaxFactorised = 40'000;  // unknowns of finer 20-node hexahedra; larger ones are solved by iteration
 constexpr double kFreeShift = 1e-10;    // shift over the largest squared frequency, for free bodies
 
 // Ratio of the energy of the whole error to the part that finer elements resolve. This energy is proportional to h^p
@@ -49,7 +49,7 @@ class FinerSystem {
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
     values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
-    if (!is_nested(model) && finer.model().num_dofs() <= kMaxFactorised) {
+    if (is_mixed(model) || (!is_nested(model) && finer.model().num_dofs() <= kMaxFactorised)) {
       direct_ = make_solver_for(finer.model().pattern());
       if (direct_->factor(values_.shifted.data()) != FactorStatus::ok)
         throw RunError("the tangent of the finer elements cannot be factorised");
