@@ -55,7 +55,7 @@ class Dirk : public OneStep {
   std::vector<StageSolver*> solver_of_;                // solvers of stages 1 to s
   StageSolver::Stage stage_;
   Eigen::MatrixXd V_, A_;                                // a column per stage
-  AccelerationPredictor predictor_, attempt_predictor_;  // of accepted steps; with the last attempt, too
+  AccelerationPredictor predictor_, attempt_predictor_;  // from accepted steps; from these and the last attempt
 };
 
 }  // namespace orthodyn

@@ -7,8 +7,9 @@
 //
 //     phi_k(h J) b ~ beta (V phi_k(h H) e_1 + h eta [phi_{k+1}(h H) e_1]_m v_{m+1}).
 //
-// The second term is the error estimate of the first (Saad 1992, section 5). The phi_k(h H) e_1 are columns of one
-// exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the estimate is small. Not thread-safe.
+// The second term is the error estimate of the first (Saad 1992, section 5); apply() returns the sum.
+// The phi_k(h H) e_1 are columns of one exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the
+// estimate is small. Not thread-safe.
 #pragma once
 
 #include <functional>
@@ -23,7 +24,7 @@ class KrylovPhi {
 
   KrylovPhi(Eigen::Index size, int max_dimension);
 
-  // Starts the Krylov space of b. apply() calls `J`, too, so J must not change until the next begin().
+  // Starts the Krylov space of b. apply() calls `J` to enlarge the space: J must not change until the next begin().
   void begin(const Operator& J, const Vector& b);
 
   // Computes out = phi_k(h J) b for any k >= 1 and h. False if the root mean square of the error exceeds `tolerance`

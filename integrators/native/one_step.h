@@ -65,11 +65,11 @@ class OneStep : public Integrator {
   void advance_adaptively(double t_stop);
   void advance_by_fixed_step(double t_stop);
   double first_step(double t_stop);
-  double length(double t_stop) const;
+  double length(double t_stop) const;  // of the next step with error control, s
   StepResult try_step(double h);
   void accept(double h);
-  void count(StepResult result);
-  double resolution() const;  // resolution (s) of floating-point time at now()
+  void count(StepResult result);  // adds a failed attempt to the statistics
+  double resolution() const;      // resolution (s) of floating-point time at now()
   [[noreturn]] void give_up(StepResult result, double t, double h) const;
 
   std::string name_;

@@ -83,7 +83,7 @@ class SundialsIntegrator : public Integrator {
   virtual Reason classify(int flag) const = 0;  // reason for a negative flag
   // Number of steps that the derived class has tried again; the library does not count these as convergence failures.
   virtual long retries() const { return 0; }
-  virtual std::size_t own_bytes() const { return 0; }  // besides library workspace and linear solver, bytes
+  virtual std::size_t own_bytes() const { return 0; }  // bytes of the derived class itself
   // Message for a step whose iteration does not converge, with the remedy.
   virtual std::string iteration_failure() const;
 
@@ -95,7 +95,7 @@ class SundialsIntegrator : public Integrator {
   void attach_linear_solver();
   // Calls `attempt`, one step of the library, with a new matrix if one is due (renewal_policy.h). Returns its flag.
   int with_due_matrix(const std::function<int()>& attempt);
-  // Call it when the library is restarted: it then renews the matrix.
+  // Derived classes call this when they restart the library, which then renews the matrix.
   void restart_renewal();
   // Throws RunError with the library's message if the flag is negative.
   void require(int flag) const;
@@ -131,6 +131,7 @@ class SundialsIntegrator : public Integrator {
   };
   Counters counters() const;
   void update_statistics();
+  // Throws RunError if the last step was as short as the resolution of time.
   void refuse_tiny_steps(const StepInfo& info, double t_stop) const;
   std::string position() const;  // "NAME stopped at t = ..., step ...: "
   [[noreturn]] void fail(int flag);
@@ -138,7 +139,7 @@ class SundialsIntegrator : public Integrator {
   std::string name_;
   const LibraryCalls& library_;
   std::optional<RenewalPolicy> renewal_;  // only with Newton's method, and not in IDA
-  Counters before_;                       // counted before the last restart
+  Counters before_;                       // sums until the last restart of the library
   double t_ = 0;
   bool started_ = false;
 };

@@ -24,6 +24,7 @@ inline int create_context(SUNContext* context) {
 #endif
 }
 
+// Writes "FUNCTION: MESSAGE" to the std::string at `text`.
 inline void keep_message(const char* function, const char* message, void* text) noexcept {
   try {
     *static_cast<std::string*>(text) = std::string(function ? function : "") + ": " + (message ? message : "");

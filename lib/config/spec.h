@@ -1,5 +1,5 @@
-// Declares the keys of a section. This declaration gives the reader, its checks, the defaults of the resolved scene and
-// the text of `orthodyn list`.
+// Declares the keys of a section. The reader, its checks, the defaults in the resolved scene and the text of
+// `orthodyn list` follow from this declaration.
 //
 //   struct Gravity { Vec3 acceleration{0, 0, -9.81}; static const Spec<Gravity>& spec(); };
 //   const Spec<Gravity>& Gravity::spec() {
@@ -61,7 +61,7 @@ class Keys {
   using Member = std::function<void*(void* target)>;
   struct Field {
     Key doc;
-    std::string fallback, with_key, with_word;  // own copies, because a Rule holds views
+    std::string fallback, with_key, with_word;  // copies of Rule::fallback and Rule::with, which are views
     const ValueType* type;
     Member member;
   };

@@ -1,4 +1,4 @@
-// Shapes of cells: their corners, middles and faces. Nodes are numbered as by VTK:
+// Shapes of cells: their corners, mid-nodes ("middles") and faces. Nodes are numbered as by VTK:
 //
 //   tetrahedron  corners 0 1 2 3, with positive volume (x1-x0) . ((x2-x0) x (x3-x0))
 //   wedge        triangle 0 1 2, opposite triangle 3 4 5; the normal of 0 1 2 points inward (VTK's manual: outward)

@@ -7,10 +7,10 @@
 
 namespace orthodyn {
 
-// Analyses a direct solver for matrices on this pattern and returns it. If the pattern is distributed, the first rank
-// gathers the matrix and solves while the others wait. This pays if a factor costs less than communication between
-// ranks. Results are then reproducible for the same number of ranks, and all calls except description() and
-// factor_bytes() are collective.
+// Returns the solver after analyze(pattern). If the pattern is distributed, the returned solver gathers the matrix on
+// the first rank, which solves while the others wait; `solver` must then be direct, otherwise ConfigError is thrown.
+// This is faster if a factor costs less than communication between ranks. Results are then reproducible for the same
+// number of ranks, and all calls except description() and factor_bytes() are collective.
 std::unique_ptr<LinearSolver> prepare(std::unique_ptr<LinearSolver> solver, const Pattern& pattern);
 
 }  // namespace orthodyn

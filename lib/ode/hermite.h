@@ -7,7 +7,7 @@
 
 namespace orthodyn {
 
-// The solution at one end of a step; a = M^-1 f.
+// The solution at one end of a step. `a`: the method's own acceleration, approximately M^-1 f.
 struct StepEnd {
   double t = 0;
   Vector q, v, a;

@@ -1,4 +1,4 @@
-// The section `elasticity`: the elastic law of all elements.
+// The section `elasticity`: kinematics of the elastic law. A region may override the kinematics.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct EnumNames<Kinematics> {
 };
 
 struct Elasticity : ElasticityOptions {
-  std::optional<double> linear_error;  // relative to the largest displacement; for kinematics: auto only
+  std::optional<double> linear_error;  // allowed error of kinematics: auto, relative to the largest displacement
   static const Spec<Elasticity>& spec();
 };
 

@@ -25,11 +25,12 @@ struct Value<Ply> {
   static std::string yaml(const Ply& ply);
 };
 
-// The part of a ply in one level of a stack: begin < t < end, t in [-1, 1] the cells' third natural coordinate.
+// The part of a ply that lies in the cells of one level of a stack (lib/mesh/stack.h). It extends from `begin` to `end`
+// in the third natural coordinate of the cells, which is in [-1, 1].
 struct PlyPart {
-  std::size_t ply;   // index in the layup
-  std::string name;  // "ply_2", or "ply_2_1", "ply_2_2", ... if it has several parts
-  std::size_t level;
+  std::size_t ply;    // index in the layup
+  std::string name;   // "ply_2", or "ply_2_1", "ply_2_2", ... if it has several parts
+  std::size_t level;  // index in Stack::levels
   double begin, end;
   double share() const { return (end - begin) / 2; }  // of the level's height
 };

@@ -9,6 +9,7 @@
 
 namespace orthodyn {
 
+// interpolated: frames are taken from dense output. exact: steps end at frame times.
 enum class OutputTimes { interpolated, exact };
 
 // When energies are computed.
@@ -46,22 +47,23 @@ struct Probe {
 
 // When probes, reactions, energies and momenta are recorded, if not with the frames.
 struct History {
-  std::optional<double> interval;  // s
-  bool steps = false;              // after each step
+  std::optional<double> interval;  // between rows, s
+  bool steps = false;              // a row after each step
   static const Spec<History>& spec();
 };
 
 struct Output {
-  std::optional<double> interval;  // s
+  std::optional<double> interval;  // between frames, s
   std::optional<int> frames;
   std::optional<History> history;  // empty: with the frames
   OutputTimes times = OutputTimes::interpolated;
   FrameFields fields{"displacement", "velocity"};
   Named<Probe> probes;
-  std::vector<std::string> extremes;
-  bool reactions = false, energy = true, steps = true, momentum = false;
+  std::vector<std::string> extremes;                   // "von_mises.largest"
+  bool reactions = false;                              // written to probes.csv
+  bool energy = true, steps = true, momentum = false;  // files energy.csv, steps.csv, momentum.csv
   EnergyTimes energy_times = EnergyTimes::outputs;
-  bool accumulated_error = true, mesh_error = true;
+  bool accumulated_error = true, mesh_error = true;  // whether these errors are estimated
   SourceLocation origin;
   static const Spec<Output>& spec();
 };

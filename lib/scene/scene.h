@@ -29,6 +29,8 @@
 namespace orthodyn {
 
 enum class Analysis { dynamic, statical, buckling };
+
+// How a dynamic analysis starts: from the rest shape, or from the static equilibrium under the loads at the start.
 enum class Start { rest, equilibrium };
 
 // The section `time`.
@@ -56,7 +58,7 @@ struct Buckling {
   static const Spec<Buckling>& spec();
 };
 
-inline constexpr Range kThreads{1, 1024};
+inline constexpr Range kThreads{1, 1024};  // allowed values of `threads`
 
 struct Scene {
   Analysis analysis = Analysis::dynamic;
@@ -75,15 +77,15 @@ struct Scene {
   std::optional<Initial> initial;
   Start start = Start::rest;
   TimeSpan time;
-  std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
-  std::optional<Statics> statics;                      // for analysis: static and start: equilibrium
+  std::shared_ptr<const IntegratorChoice> integrator;  // null unless the analysis is dynamic
+  std::optional<Statics> statics;                      // if the analysis is static or starts from equilibrium
   std::optional<Buckling> buckling;                    // for analysis: buckling
   std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
   std::optional<int> threads;  // empty: number of hardware threads (RunThreads)
-  Places places;
+  Places places;               // of the sections in the file, for errors found later
 
   static const Spec<Scene>& spec();
 

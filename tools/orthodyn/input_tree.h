@@ -17,19 +17,19 @@ struct InputKind {
 // scene, comparison, sweep, stability
 const std::vector<InputKind>& input_kinds();
 
-// A section of the input, or one type of a section with `type`.
+// A section of the input. A section with the key `type` gives one InputSection per type.
 struct InputSection {
   std::string path;      // "materials.<name>", "clamps.<n>.box"; "" for the file itself
   std::string type;      // value of `type`, or ""
-  std::string sentence;  // describes the key of the section, or the type
+  std::string sentence;  // describes the section, or the type
   std::vector<Key> keys;
-  std::vector<std::pair<std::string, std::string>> facts = {};  // of the type: ("source", "Newmark 1959")
+  std::vector<std::pair<std::string, std::string>> facts = {};  // name and text: ("source", "Newmark 1959")
 };
 
 // All sections of a file, each before its subsections. A section that may occur in several places is listed once.
 std::vector<InputSection> input_sections(const InputKind& kind);
 
-// Default of `type` in the section at `key`; "" without a default.
+// Default type of the section that `key` declares; "" without a default.
 std::string default_type(const Key& key);
 
 }  // namespace orthodyn

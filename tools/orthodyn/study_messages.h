@@ -16,14 +16,15 @@ class ProgressReporter {
  public:
   explicit ProgressReporter(bool quiet) : quiet_(quiet) {}
 
-  // `count`: number of all jobs, which may change between calls. Cached jobs do not count in the estimate.
+  // `count`: number of all jobs, which may change between calls. `cached`: the job was done by an earlier command; its
+  // time does not enter the estimate.
   void report(std::size_t count, const std::string& title, const std::string& outcome, bool cached);
 
  private:
   using Clock = std::chrono::steady_clock;
   bool quiet_;
   Clock::time_point began_ = Clock::now();
-  std::size_t number_ = 0, worked_ = 0;
+  std::size_t number_ = 0, worked_ = 0;  // reported jobs; those of them that were not cached
 };
 
 // Counts the failed points of a study.

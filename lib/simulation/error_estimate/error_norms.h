@@ -69,6 +69,7 @@ class ReferenceNorms {
  private:
   // Norm of each column.
   std::vector<double> norms(const Eigen::MatrixXd& x) const;
+  // M times the first proper orthogonal mode of the reference.
   Vector leading_mode() const;
 
   Metric metric_;

@@ -46,9 +46,9 @@ class LinearityWatch : public Observer {
   // The error of one state, without phase error. Throws RunError if the tangent at rest cannot be factorised.
   LinearityError error_at(double t, const Vector& q) { return linearity().error(t, q); }
 
-  // Completes error() at the end of a motion, or at the last equilibrium of a static analysis. error() is NaN if it
-  // cannot be computed.
+  // Completes error() at the end of a motion. error() is NaN if it cannot be computed.
   void finish();
+  // Completes error() for one state, the last equilibrium of a static analysis.
   void finish_at(double t, const Vector& q);
   // Calls finish_at() and throws RunError if the error exceeds the limit. Does nothing without a limit.
   void require(double t, const Vector& q);
@@ -89,13 +89,15 @@ class LinearityWatch : public Observer {
   std::optional<Linearity> linearity_;  // made on first use
   double allowed_, span_, time_;
   Largest largest_;
-  double checked_ = 0;               // displacement (mass norm) at which the error was last computed
-  std::optional<PhaseError> phase_;  // empty in statics
-  double local_ = 0, stiffness_ = 0, error_ = 0;
+  double checked_ = 0;                // displacement (mass norm) at which the error was last computed
+  std::optional<PhaseError> phase_;   // empty in statics
+  double local_ = 0, stiffness_ = 0;  // largest LinearityError::displacement and LinearityError::stiffness so far
+  double error_ = 0;                  // see error()
   bool unstable_ = false;
   std::string only_linear_;
 };
 
+// Message if LinearityWatch::unstable().
 inline constexpr const char* kBucklesBelowLoads =
     "the body buckles below these loads, which linear kinematics do not show";
 

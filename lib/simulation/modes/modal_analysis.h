@@ -18,9 +18,11 @@ class ModalAnalysis {
   ModalAnalysis(const Setup& setup, int count, bool about_equilibrium);
 
   const FemModel& model() const { return rebuilt_ ? *rebuilt_->model : *setup_.built.model; }
+  // State about which the modes are computed: at rest, or in equilibrium.
   const State& about() const { return about_; }
   const Modes& modes() const { return modes_; }
-  // Estimated relative error of each frequency due to the mesh; positive if it is too high, 0 for zero modes.
+  // Estimated relative error of each frequency due to the mesh; positive if the frequency is too high, 0 for zero
+  // modes.
   const std::vector<double>& mesh_errors() const { return frequency_errors_.shares; }
   const FrequencyErrors& frequency_errors() const { return frequency_errors_; }
   // True if the stiffness of loads is unsymmetric, as for pressure on a surface with free edges: the modes use its

@@ -8,11 +8,12 @@
 
 namespace orthodyn {
 
-// This many frames, rows, load steps or study points, or more, require --yes, because they are probably a typing error.
+// From this number of frames, table rows, load steps or study points on, a run needs --yes: such a number is probably a
+// typing error.
 constexpr double kMaxOutputsWithoutYes = 1e6;
 
 struct OutputSize {
-  double frames = 0;       // number of frames; in statics the least number of load steps
+  double frames = 0;       // number; in statics the least number of load steps, in buckling that of shapes
   double frame_bytes = 0;  // of each frame
   double rows = 0;         // in each of energy.csv, momentum.csv and probes.csv; 0: one per step, number unknown
   double row_bytes = 0;    // of the three tables together

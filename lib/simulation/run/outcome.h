@@ -17,12 +17,12 @@ struct Outcome {
   std::string message;                 // of a failed run: what failed, where, what to try
   std::string remark;                  // of a completed run that an event stopped: the event
   Reason reason = Reason::other;       // of a failed run, for tables
-  std::optional<double> stepped_over;  // start of the first step much longer than the loads' step limit, s
-  std::optional<double> unresolved;    // time at which a load or a motion changes too fast to be sampled beforehand, s
+  std::optional<double> stepped_over;  // start of the first step much longer than Model::step_limits() allows, s
+  std::optional<double> unresolved;    // StepLimits::unresolved() of the loads and motions, s
   State last;                          // the last state reached
   bool between_steps = true;  // false if an observer failed, so that not all observers have seen the last state
   double wall_seconds = 0, cpu_seconds = 0;
-  Cost observation = {};  // time spent in observers, as in Statistics
+  Cost observation = {};  // see Statistics::observation
 };
 
 const char* status_word(Outcome::Status status);  // "completed"
@@ -31,7 +31,8 @@ const char* status_word(Outcome::Status status);  // "completed"
 // process. The number of threads must not change between the two calls of a difference.
 double cpu_seconds_now();
 
-// Calls `work`, turns an exception into a failed outcome, and calls on_end() of the observers.
+// Calls `work` with an outcome whose last state is `initial`, turns an exception into a failed outcome, and calls
+// on_end() of the observers.
 Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
                   const std::function<void(Outcome&)>& work);
 

@@ -9,7 +9,7 @@
 
 namespace orthodyn::study::compare {
 
-// What is solved: a scene with one combination of the varied keys outside of `integrator`.
+// A scene with one combination of the varied keys outside of `integrator`.
 struct Problem {
   std::string id, label;  // ids are unique
   SceneVariant scene;
@@ -38,7 +38,7 @@ std::string control_word(Method::Control control);  // "rtol", "step" or "safety
 struct Point {
   std::size_t problem = 0, method = 0;  // indices in Design
   double control = 0;                   // rtol, step (s) or safety
-  SourceLocation control_at = {};       // place of `tolerances` or `steps`; "" if the program chose the value
+  SourceLocation control_at = {};       // place of `tolerances` or `steps`; empty if the program chose the value
 };
 
 struct Design {

@@ -24,8 +24,8 @@ std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<
 // exception. Throws RunError if the reference cannot be read or the trajectory cannot be written.
 MeasurementResult measure(Setup setup, const MeasurementInput& input, const std::filesystem::path& folder);
 
-// Does the job in `folder`. `ranks`: the processes that share the job; each must call this function. Null for one
-// process. Throws as serve_job() does.
+// Does a measurement as a job of a comparison, in its own process: reads the input from `folder` and writes the result
+// to it by serve_job(), which explains `ranks` and the exceptions.
 void measure(const std::filesystem::path& folder, const Ranks* ranks);
 
 }  // namespace orthodyn::study::compare

@@ -18,7 +18,7 @@ namespace orthodyn::study {
 // A scene with all defaults filled in.
 struct PointScene {
   std::string title;               // "angle 30 deg, mesh fine"
-  std::string scene;               // YAML, independent of its folder
+  std::string scene;               // YAML with absolute paths, so that it can be read in any folder
   std::string mesh;                // the section `mesh`
   std::vector<std::string> files;  // that the scene uses
 };

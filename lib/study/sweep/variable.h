@@ -38,6 +38,7 @@ struct NumberRange {
 // The number at `share` of the range: `from` at 0, `to` at 1.
 double range_at(const NumberRange& range, double share);
 
+// Listed values, in one unit.
 struct ValueList {
   std::vector<YamlText> values;
   std::string unit, name;
@@ -84,10 +85,11 @@ struct Value<std::vector<Variable>> {
   static std::string yaml(const std::vector<Variable>&) { return ""; }
 };
 
-// Top-level keys of a scene, which distinguish paths from names used in formulas.
+// Top-level keys of a scene. A key of `vary` without a dot is a path if it is one of these, otherwise a name for
+// formulas.
 std::vector<std::string> scene_keys();
 
-// "; did you mean 'gravity'?", or "".
+// Suggestion for a misspelt top-level key: "; did you mean 'gravity'?", or "" if no key is near.
 std::string scene_key_near(const std::string& name);
 
 }  // namespace orthodyn

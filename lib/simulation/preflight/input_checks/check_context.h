@@ -1,4 +1,5 @@
-// The scene under test and helper functions for the input checks. Each file of this folder checks one kind of input.
+// The scene that is checked, and helper functions of the input checks. Each file of this folder checks one kind of
+// input.
 #pragma once
 
 #include <fmt/format.h>
@@ -50,17 +51,18 @@ void warn(Warnings& out, const std::string& place, fmt::format_string<Arguments.
   out.push_back(place + ": " + fmt::format(message, std::forward<Arguments>(arguments)...));
 }
 
-void check_material(const CheckContext& context, Warnings& out);
-void check_place(const CheckContext& context, Warnings& out);
-void check_load(const CheckContext& context, Warnings& out);
-void check_time(const CheckContext& context, Warnings& out);
-void check_motion(const CheckContext& context, Warnings& out);
-void check_damping(const CheckContext& context, Warnings& out);
-void check_freedom(const CheckContext& context, Warnings& out);
-void check_hourglass(const CheckContext& context, Warnings& out);
-void check_turning(const CheckContext& context, Warnings& out);
-void check_event(const CheckContext& context, Warnings& out);
-void check_setting(const CheckContext& context, Warnings& out);
+// Each check appends its warnings to `out`. The comments name the file.
+void check_material(const CheckContext& context, Warnings& out);   // materials.cc
+void check_place(const CheckContext& context, Warnings& out);      // places.cc: lengths, points and directions
+void check_load(const CheckContext& context, Warnings& out);       // loads.cc
+void check_time(const CheckContext& context, Warnings& out);       // times.cc
+void check_motion(const CheckContext& context, Warnings& out);     // motions.cc: initial and prescribed motions
+void check_damping(const CheckContext& context, Warnings& out);    // damping.cc
+void check_freedom(const CheckContext& context, Warnings& out);    // freedom.cc: bodies without supports
+void check_hourglass(const CheckContext& context, Warnings& out);  // hourglass.cc
+void check_turning(const CheckContext& context, Warnings& out);    // turning.cc: free rotation
+void check_event(const CheckContext& context, Warnings& out);      // events.cc
+void check_setting(const CheckContext& context, Warnings& out);    // settings.cc: keys of the integrator
 
 // The value at a path such as "integrator.rtol"; empty if absent or null.
 std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path);
@@ -73,8 +75,8 @@ void visit_keys(const Config& config, const std::string& key, const std::functio
 void visit_time_functions(const CheckContext& context, const std::function<void(const Config&)>& visit);
 bool is_time_function(const Config& section);
 
-// Calls `visit` for ascending times (s) from start to end: for the times at which loads or motions are not smooth, and
-// for some between each two of them. Stops at a time where a formula has no value; the run reports the error if it
+// Calls `visit` for ascending times (s) from start to end: the times at which loads or motions are not smooth, and some
+// times between each two of these. Stops at a time where a formula has no value; the run reports the error if it
 // reaches that time.
 void visit_times(const CheckContext& context, const std::function<void(double)>& visit);
 
