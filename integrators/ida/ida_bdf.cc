@@ -1,5 +1,5 @@
 // IDA's BDF on the implicit system F = (q' - v, M v' - f) = 0 (Hindmarsh et al. 2005): fixed leading coefficient,
-// variable order 1-5. A consistent mass needs no solve with M.
+// variable order 1-5. With a consistent mass, steps solve no systems with M alone.
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
 
