@@ -27,7 +27,9 @@ YAML::Node entry(YAML::Node& parent, const std::string& step, const std::string&
                       fmt::format("'{}' is a value and has no keys", path.substr(0, path.size() - step.size() - 1)));
   std::size_t index = 0;
   if (!parse_number(step, index) || index >= parent.size())
-    throw ConfigError(place, fmt::format("'{}' is not an index below {}", step, parent.size()));
+    throw ConfigError(place, parent.size() == 0 ? fmt::format("'{}' is not an index: the list is empty", step)
+                                                : fmt::format("'{}' is not an index of the list; expected 0 to {}",
+                                                              step, parent.size() - 1));
   return parent[index];
 }
 

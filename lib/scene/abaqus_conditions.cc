@@ -73,9 +73,9 @@ class ConditionWriter {
       const bool is_plain = name == "OP" || name == "AMPLITUDE" ||
                             (name == "TYPE" && abaqus_word(value) == "DISPLACEMENT") ||
                             (name == "FOLLOWER" && abaqus_word(value) == "NO");
-      if (!is_plain) return fmt::format("{} is not supported", name);
+      if (!is_plain) return fmt::format("the parameter {} is not supported", name);
     }
-    if (c.fields.empty()) return "no values after the set";
+    if (c.fields.empty()) return "has no values after the name of the set";
     if (std::string why = factors_.problem(c); !why.empty()) return why;
     if (c.keyword.name == "BOUNDARY") return add_support(c);
     if (c.keyword.name == "CLOAD") return add_force(c);
@@ -114,8 +114,8 @@ class ConditionWriter {
     }
     const auto first = number(c, 0), last = number(c, 1, first.value_or(0)), value = number(c, 2);
     if (!first || !last || !value) return "components or value are not numbers";
-    if (*first < 1 || *last < *first || *last > 6) return "not a displacement component";
-    if (*first > 3) return "rotations, which nodes of solids do not have";
+    if (*first < 1 || *last < *first || *last > 6) return "the numbers of components are not from 1 to 6";
+    if (*first > 3) return "prescribes rotations, which nodes of solids do not have";
     for (std::size_t k = static_cast<std::size_t>(*first);
          k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
       support(*set, c).displacement[k - 1] = Move{*value * units_.length, &c};
@@ -182,7 +182,7 @@ class ConditionWriter {
     if (!set) return "the mesh has no such nodes";
     const auto component = number(c, 0), value = number(c, 1);
     if (!component || !value || *component < 1) return "component or value is not a number";
-    if (*component > 3) return "a moment; nodes of solids have no rotations";
+    if (*component > 3) return "is a moment, but nodes of solids have no rotations";
     if (std::string why = rotated(*set); !why.empty()) return why;
     const std::string factor = factors_.take(c);
     auto found = std::find_if(forces_.begin(), forces_.end(),
@@ -225,7 +225,8 @@ class ConditionWriter {
     const auto name = surface(c);
     const auto traction = directed(c);
     if (!name) return "the mesh has no such surface";
-    if (!is_linear() && !c.keyword.has("FOLLOWER")) return "a follower traction (FOLLOWER=YES is the default)";
+    if (!is_linear() && !c.keyword.has("FOLLOWER"))
+      return "follower tractions are not supported (FOLLOWER=YES is the default)";
     if (!traction) return "the traction needs a magnitude and a direction";
     out_.loads.push_back(fmt::format("{{surface: {}, traction: {}{}}}", yaml_name(*name),
                                      Value<Vec3>::yaml(units_.stress * *traction), entry(factors_.take(c))));
@@ -241,7 +242,7 @@ class ConditionWriter {
 
   std::string add_gravity(const AbaqusCondition& c) {
     if (c.keyword.has("AMPLITUDE")) return "gravity cannot vary in time";
-    if (!covers_body(c)) return "acts on a part of the body only";
+    if (!covers_body(c)) return "gravity on a part of the body only is not supported";
     const auto g = directed(c);
     if (!g) return "the acceleration needs a magnitude and a direction";
     gravity_ += *g;

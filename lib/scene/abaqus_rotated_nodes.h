@@ -34,10 +34,10 @@ class AbaqusRotatedNodes {
           rotated.all ? std::ssize(nodes)
                       : std::count_if(nodes.begin(), nodes.end(), [&](int n) { return rotated.nodes.contains(n); });
       if (count == 0) continue;
-      const std::string start = fmt::format("*TRANSFORM (line {}) rotates ", rotated.line);
+      const std::string start = fmt::format("*TRANSFORM (line {}) rotates the directions at ", rotated.line);
       return count == std::ssize(nodes)
-                 ? start + "its directions"
-                 : start + fmt::format("its directions at {} of its {} nodes", count, nodes.size());
+                 ? start + "the nodes, which is not supported"
+                 : start + fmt::format("{} of the {} nodes, which is not supported", count, nodes.size());
     }
     return "";
   }

@@ -119,7 +119,7 @@ std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMes
     for (const auto& [where, name] : m.beyond)
       names.push_back(fmt::format("{} of material {} ({})", name, m.name, where));
     if (!m.without_effect.empty())
-      names.push_back(fmt::format("of material {}, without effect here: {}", m.name, join(m.without_effect)));
+      names.push_back(fmt::format("of material {}, not used by orthodyn: {}", m.name, join(m.without_effect)));
   });
   for (const auto& [key, material] : deck.materials)
     if (!used.contains(key))

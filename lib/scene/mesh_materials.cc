@@ -94,7 +94,7 @@ void fill_mesh_materials(const Config& config, Scene& scene) {
     check_can_be_taken(material);
     if (materials.has(material.name)) return;
     if (!material.without_effect.empty())
-      loaded.warnings.push_back(fmt::format("{}: material '{}' of the mesh: without effect here: {}", material.where,
+      loaded.warnings.push_back(fmt::format("{}: material '{}' of the mesh: not used by orthodyn: {}", material.where,
                                             material.name, join(material.without_effect)));
     try {
       const Config filled = materials.fill(material.name, material_yaml(material));

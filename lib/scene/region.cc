@@ -124,7 +124,7 @@ std::vector<const Region*> assign_regions(const Scene& scene, const Mesh& mesh) 
     if (!out[i]) out[i] = everywhere;
     if (!out[i])
       scene.regions.front().second.origin.fail(
-          fmt::format("region '{}' of the mesh has no material; add it, or 'all'", mesh.region_names[i]));
+          fmt::format("region '{}' of the mesh has no entry; add one for it, or one for 'all'", mesh.region_names[i]));
   }
   return out;
 }

@@ -55,10 +55,11 @@ class CoordinateOwners {
   }
 
   [[noreturn]] void fail_twice(const SourceLocation& origin, int node, std::size_t component, int owner) const {
-    origin.fail(
-        fmt::format("moves {} of the node at {} m, which already belongs to {}; select other nodes or components",
-                    "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
-                    supports_[static_cast<std::size_t>(owner)].name));
+    origin.fail(fmt::format(
+        "moves component {} of the node at {} m, but this component already belongs to {}; select other nodes or "
+        "components",
+        "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
+        supports_[static_cast<std::size_t>(owner)].name));
   }
 
   const Mesh& mesh_;

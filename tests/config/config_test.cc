@@ -144,7 +144,7 @@ TEST(Config, WhatIsSetIsSaidToStandWhereItComesFrom) {
   config.set("mesh", Config::from_text("{size: [1, 2]}"));
   EXPECT_EQ(config.at("mesh").at("size").at(1).where(), "in/beam.yaml: --set mesh.size.1");
   EXPECT_EQ(refusal([&] { config.set("mesh.size.5", 1.0, "c.yaml:8:3: vary.x"); }),
-            "c.yaml:8:3: vary.x: '5' is not an index below 2");
+            "c.yaml:8:3: vary.x: '5' is not an index of the list; expected 0 to 1");
 }
 
 TEST(Config, AnErrorCarriesItsPlaceApartFromItsMessage) {

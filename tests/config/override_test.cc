@@ -107,9 +107,9 @@ TEST(Override, WithoutAnEqualsSignIsRefused) {
 TEST(Override, WithoutAValueIsRefused) { EXPECT_TRUE(holds(refusal_of("mesh.size="), "expected PATH=VALUE")); }
 
 TEST(Override, OfAnIndexBeyondTheListIsRefused) {
-  EXPECT_EQ(refusal_of("mesh.size.3=1"), "--set mesh.size.3=1: '3' is not an index below 3");
+  EXPECT_EQ(refusal_of("mesh.size.3=1"), "--set mesh.size.3=1: '3' is not an index of the list; expected 0 to 2");
   EXPECT_TRUE(holds(refusal_of("mesh.size.-1=1"), "'-1' is not an index"));
-  EXPECT_TRUE(holds(refusal_of("loads.name=1"), "'name' is not an index below 2"));
+  EXPECT_TRUE(holds(refusal_of("loads.name=1"), "'name' is not an index of the list; expected 0 to 1"));
 }
 
 TEST(Override, BelowAValueIsRefused) {

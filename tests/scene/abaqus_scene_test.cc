@@ -112,13 +112,13 @@ TEST(AbaqusScene, GravityMayActOnSetsWithinSets) {
 
 TEST(AbaqusScene, WhatIsLeftOutIsNamedWithItsLine) {
   const auto expect = [](const std::string& conditions, const std::string& what) { expect_left_out(conditions, what); };
-  expect("*BOUNDARY\nFoot, 4, 6\n", "*BOUNDARY (line 23): rotations, which nodes of solids do not have");
-  expect("*CLOAD\nFoot, 5, 1\n", "*CLOAD (line 23): a moment; nodes of solids have no rotations");
+  expect("*BOUNDARY\nFoot, 4, 6\n", "*BOUNDARY (line 23): prescribes rotations, which nodes of solids do not have");
+  expect("*CLOAD\nFoot, 5, 1\n", "*CLOAD (line 23): is a moment, but nodes of solids have no rotations");
   expect("*CLOAD\nHead, 1, 1\n", "*CLOAD (line 23): the mesh has no such nodes");
   expect("*DLOAD\nAll, BX, 1\n", "*DLOAD (line 23): loads of type BX are not supported");
   expect("*DSLOAD\nTop, HP, 1\n", "*DSLOAD (line 23): loads of type HP are not supported");
   expect("*STEP, NLGEOM\n*DSLOAD\nTop, TRVEC, 5, 0, 3, 4\n*END STEP\n",
-         "*DSLOAD (line 24): a follower traction (FOLLOWER=YES is the default)");
+         "*DSLOAD (line 24): follower tractions are not supported (FOLLOWER=YES is the default)");
   expect("*STEP\n*END STEP\n*STEP\n*CLOAD\n7, 1, 1\n",
          "*CLOAD (line 26): belongs to a later step; only the first step is converted");
   expect("*BOUNDARY\nFoot, 1\n*STEP\n*BOUNDARY, OP=NEW\nFoot, 2\n",

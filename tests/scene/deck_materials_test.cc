@@ -133,7 +133,8 @@ TEST_F(DeckScene, RefusalsNameTheLineOfTheDeck) {
 TEST_F(DeckScene, WhatHasNoEffectIsNamed) {
   const Scene s = scene(yaml(kIsotropic + "*EXPANSION\n1e-5\n*CONDUCTIVITY\n50\n"));
   ASSERT_EQ(s.loaded->warnings.size(), 1u);
-  EXPECT_CONTAINS(s.loaded->warnings[0], "material 'Wood' of the mesh: without effect here: *EXPANSION, *CONDUCTIVITY");
+  EXPECT_CONTAINS(s.loaded->warnings[0],
+                  "material 'Wood' of the mesh: not used by orthodyn: *EXPANSION, *CONDUCTIVITY");
 }
 
 // Keywords after the end of a material do not belong to it.

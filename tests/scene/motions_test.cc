@@ -22,13 +22,14 @@ class RefusedInput : public testing::TestWithParam<Refused> {};
 INSTANTIATE_TEST_SUITE_P(
     Scenes, RefusedInput,
     testing::Values(
-        Refused{"held_and_moved",
-                "motions: [{surface: y0, translation: [1, 0, 0], " + kStep + "}]",
-                {"motions.0", "moves x of the node at [0, 0, 0] m", "already belongs to clamp_1", "components"}},
+        Refused{
+            "held_and_moved",
+            "motions: [{surface: y0, translation: [1, 0, 0], " + kStep + "}]",
+            {"motions.0", "moves component x of the node at [0, 0, 0] m", "already belongs to clamp_1", "components"}},
         Refused{"moved_twice",
                 "motions: [{surface: x1, name: a, translation: [1, 0, 0], " + kStep +
                     "}, {nearest: [2, 1, 1], components: [y], displacement: [0, t, 0]}]",
-                {"motions.1", "moves y of the node at [2, 1, 1] m", "belongs to a"}},
+                {"motions.1", "moves component y of the node at [2, 1, 1] m", "belongs to a"}},
         Refused{"no_factor",
                 "motions: [{surface: x1, translation: [1, 0, 0]}]",
                 {"motions.0", "'factor' is missing", "smooth_step"}},

@@ -165,7 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"a_unit_in_other_letters", "0.46 GPa", "0.46 Gpa", kRefused, "did you mean 'GPa'?"},
         Mistake{"oblique_directions", "{material: wood}",
                 "{material: wood, axes: {first: [1, 1, 0], second: [0, 1, 0]}}", kWarned,
-                "'second' is not normal to 'first', at 45 deg to it: axis 2 is its part normal to axis 1, [-0.7"},
+                "'second' is not normal to 'first' (angle 45 deg): axis 2 is the part of 'second' normal to 'first', "
+                "[-0.7"},
         Mistake{"poisson_in_per_cent", "nu: 0.3", "nu: 30", kRefused, "found 30"},
         Mistake{"poisson_of_a_half", "nu: 0.3", "nu: 0.5", kRefused, "0.5"},
         Mistake{"angle_in_degrees", "{material: wood}",
@@ -189,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"a_box_of_clamps_in_mm", "{surface: x0}", "{box: {min: [100, 0, 0], max: [200, 100, 100]}}",
                             kRefused, "selects no node"},
                     Mistake{"a_clamp_twice", "{surface: x0}", "{surface: x0}, {surface: x0}", kWarned,
-                            "clamps.1: the same clamp as clamps.0"},
+                            "clamps.1: is the same clamp as clamps.0"},
                     Mistake{"a_plane_of_clamps_in_mm", "{surface: x0}",
                             "{plane: {point: [1000, 0, 0], normal: [1, 0, 0]}}", kRefused, "selects no node"},
                     Mistake{"a_box_in_mm_that_holds_all", "{surface: x0}",
@@ -200,10 +201,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Loads, InputChecks,
     testing::Values(
-        Mistake{"gravity_in_mm", "-9.81", "-9810", kWarned, "is that of the earth in mm/s^2"},
-        Mistake{"gravity_in_cm", "-9.81", "-981", kWarned, "is that of the earth in cm/s^2"},
-        Mistake{"gravity_of_another_unit", "-9.81", "-98100", kWarned, "times that of the earth"},
-        Mistake{"gravity_upwards", "-9.81", "9.81", kWarned, "it points up, along +z"},
+        Mistake{"gravity_in_mm", "-9.81", "-9810", kWarned, "is the gravity of the earth in mm/s^2"},
+        Mistake{"gravity_in_cm", "-9.81", "-981", kWarned, "is the gravity of the earth in cm/s^2"},
+        Mistake{"gravity_of_another_unit", "-9.81", "-98100", kWarned, "times the gravity of the earth"},
+        Mistake{"gravity_upwards", "-9.81", "9.81", kWarned, "gravity points up, along +z"},
         Mistake{"gravity_as_a_number", "[0, 0, -9.81]", "9.81", kRefused, "list of 3"},
         Mistake{"no_gravity", "[0, 0, -9.81]", "[0, 0, 0]", kWarned, "gravity is zero"},
         Mistake{"a_force_in_mn", "-100]", "-100e6]", kWarned, "are forces in N"},
@@ -225,11 +226,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "Is it the wrong point?"},
         Mistake{"a_load_after_the_end", kLoad, load_with("{type: ramp, start: 5, end: 6}"), kWarned, "begins at 5 s"},
         Mistake{"a_table_after_the_end", kLoad, load_with("{type: table, points: [[100, 0], [200, 1]]}"), kWarned,
-                "it is 0 during the whole run"},
+                "the factor is 0 during the whole run"},
         Mistake{"a_formula_that_is_zero", kLoad, load_with("{type: expression, formula: \"t > 10 ? 1 : 0\"}"), kWarned,
-                "it is 0 during the whole run"},
+                "the factor is 0 during the whole run"},
         Mistake{"a_sine_without_amplitude", kLoad, load_with("{type: sine, frequency: 5, amplitude: 0}"), kWarned,
-                "it is 0 during the whole run"},
+                "the factor is 0 during the whole run"},
         Mistake{"a_ramp_beyond_the_end", kLoad, load_with("{type: ramp, end: 2}"), kWarned,
                 "the ramp ends at 2 s, after"},
         Mistake{"a_step_beyond_the_end", kLoad, load_with("{type: smooth_step, end: 10}"), kWarned,
@@ -244,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"statics_before_the_load", kTime + "\n" + kOutput,
                 "analysis: static\ntime: {end: 0}\nmotions: [{surface: x1, translation: [1, 0, 0], components: [x], "
                 "factor: {type: ramp, end: 1}}]\n",
-                kWarned, "it is 0 at the time of the statics"}),
+                kWarned, "where statics evaluate it"}),
     [](const auto& mistake) { return mistake.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -386,7 +387,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"the_other_ratio_of_a_pair", "nu13: 0.45", "nu13: 0.0225", kWarned,
                 "is 0.0225 the value of nu31? Then nu13 is 0.528"},
         Mistake{"grain_through_the_thickness", "first: [1, 0, 0], second: [0, 1, 0]",
-                "first: [0, 0, 1], second: [1, 0, 0]", kWarned, "points through the body, along z"},
+                "first: [0, 0, 1], second: [1, 0, 0]", kWarned, "points along z, through the thickness"},
         Mistake{"the_other_name_of_a_shear_modulus", "g13: 0.66e9", "g31: 0.66e9", kRefused, "did you mean 'g13'?"},
         Mistake{"a_decimal_comma", "density: 400", "density: 400,5", kRefused, "is it meant as 'density: 400.5'?"},
         Mistake{"a_damping_ratio_by_name", "time: {end: 0.1}", "time: {end: 0.1}\ndamping: {ratio: 0.02}", kRefused,

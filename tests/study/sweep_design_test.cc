@@ -301,7 +301,8 @@ TEST_F(SweepDesign, PointsAtWhatBroughtAMistakeIn) {
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("expected a number"), Not(HasSubstr("impossible"))));
   EXPECT_THAT(said("materials.soft.nu: [0.1, 0.7]"),
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("nu 0.7"), HasSubstr("impossible: keep")));
-  EXPECT_THAT(said("gravity.7: [1]"), AllOf(HasSubstr("s.yaml:4:"), HasSubstr("'7' is not an index below 3")));
+  EXPECT_THAT(said("gravity.7: [1]"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("'7' is not an index of the list; expected 0 to 2")));
   EXPECT_THAT(said("kind: {a: {},\n    b: {mesh.cels: [1, 1, 1]}}"),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("did you mean 'cells'?")));
   const auto other = [&](const std::string& scene) {

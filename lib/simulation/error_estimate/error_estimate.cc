@@ -77,7 +77,7 @@ ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)
   const auto resolved = Registry<IntegratorChoice>::read(section);  // including decisions of the first run
   const IntegratorSettings own = resolved->settings();
   if (!own.step && !own.rtol && !own.safety)
-    section.fail("has neither rtol nor step: no more accurate run is possible");
+    section.fail("has none of rtol, step and safety, so that --estimate-error cannot make a more accurate run");
   fixed_step_ = own.step.has_value();
   const IntegratorSettings finer = refined(own);
   refinement_ = assignments(finer);

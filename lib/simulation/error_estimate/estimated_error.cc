@@ -133,7 +133,7 @@ StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, co
     const StateError found =
         state_error(FinerModel(scene, model), state, in_motion, nodes, probed_fields(scene, model));
     const double elastic = model.evaluate("energy.mesh_error", state)[1];
-    if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("it is not finite");
+    if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("the mesh error is not finite");
     error.relative = found.energy / (found.energy + elastic);
     error.samples = 1;
     out.displacements = found.displacements;
@@ -151,7 +151,7 @@ FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, c
       throw RunError("the shapes of the finer elements take too much memory");
     out.shares = frequency_errors(FinerModel(scene, model), about, modes);
     for (const double share : out.shares)
-      if (!std::isfinite(share)) throw RunError("it is not finite");
+      if (!std::isfinite(share)) throw RunError("the error of a frequency is not finite");
   });
   if (!out.by_finer_elements) out.shares = recovered_frequency_errors(model, about, modes);
   if (!modes.modes.empty())

@@ -79,7 +79,7 @@ class DynamicAnalysis {
   void prepare_anew() {
     if (context_.request.resume)
       context_.listener.on_notice(
-          fmt::format("nothing to resume in {}: starts at the beginning", folder_.path().string()));
+          fmt::format("nothing to resume in {}: the run starts at the beginning", folder_.path().string()));
     folder_.prepare();
   }
 

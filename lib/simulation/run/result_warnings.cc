@@ -99,7 +99,8 @@ void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<st
   if (few != extremes.end())
     add_warning(
         all,
-        "extremes are those of {}: peaks between them are missed. output.history: {{steps: true}} records every step",
+        "extremes are those of {} only: peaks between these states are missed. Use output.history: {{steps: true}} to "
+        "evaluate every step",
         counted(few->states, "state"));
 }
 

@@ -50,8 +50,9 @@ Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times
   try {
     while (!settling.stepper->done()) settling.stepper->step();
   } catch (const RunError& e) {
-    throw RunError(fmt::format("without loads, with springs and ground contact acting on the rest shape: {}", e.what()),
-                   e.reason());
+    throw RunError(
+        fmt::format("the equilibrium without loads, with springs and ground contact, is not found: {}", e.what()),
+        e.reason());
   }
   return settling.stepper->state().q;
 }

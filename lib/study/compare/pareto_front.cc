@@ -117,7 +117,8 @@ class GroupParetoFront {
       return fmt::format("{} need {:.2g} s ({})", name, best->seconds, problem_of(*best).at("mesh").get<std::string>());
     const auto nearest =
         std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
-    return fmt::format("{} do not reach it (best {:.2g} % in {:.2g} s)", name, 100 * nearest->error, nearest->seconds);
+    return fmt::format("{} do not reach this error (best {:.2g} % in {:.2g} s)", name, 100 * nearest->error,
+                       nearest->seconds);
   }
 
   const Json& document_;

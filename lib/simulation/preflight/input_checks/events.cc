@@ -55,7 +55,7 @@ void check_event(const CheckContext& context, Warnings& out) {
              stress, modulus);
       if (stress > 0 && stress < kSmallestStress * modulus)
         warn(out, place,
-             "{:.3g} Pa is a stress of {:.1g} of the moduli, which is reached at once: is the unit missing, such as "
+             "{:.3g} Pa is {:.1g} of the moduli; so small a stress is reached at once: is the unit missing, such as "
              "MPa?",
              stress, stress / modulus);
     }

@@ -51,14 +51,15 @@ void check_time_functions(const CheckContext& context, Warnings& out) {
     const auto later = std::find_if(kinks.begin(), kinks.end(), [&](double t) { return t >= context.end(); });
     if (context.is_static()) {
       warn(out, function.where(),
-           "it is 0 at the time of the statics, {:.4g} s (time.end): the load or motion has no effect", context.end());
+           "the factor is 0 at {:.4g} s (time.end), where statics evaluate it: the load or motion has no effect",
+           context.end());
     } else if (later != kinks.end()) {
       warn(out, function.where(),
-           "it is 0 during the whole run, from {:.4g} to {:.4g} s, and begins at {:.4g} s: is that in ms, or time.end "
-           "too early?",
+           "the factor is 0 during the whole run, from {:.4g} to {:.4g} s, and begins at {:.4g} s: is this time in ms, "
+           "or is time.end too early?",
            context.start(), context.end(), *later);
     } else {
-      warn(out, function.where(), "it is 0 during the whole run: the load or motion has no effect");
+      warn(out, function.where(), "the factor is 0 during the whole run: the load or motion has no effect");
     }
   });
 }
@@ -123,12 +124,14 @@ void check_gravity(const CheckContext& context, Warnings& out) {
   const auto near = [&](double x) { return std::abs(size / x - 1) < 0.01; };
   const std::string place = context.config.at("gravity").where();
   if (near(9810) || near(981))
-    warn(out, place, "{:.5g} m/s^2 is that of the earth in {}/s^2: orthodyn uses m/s^2, 9.81", size,
+    warn(out, place, "{:.5g} is the gravity of the earth in {}/s^2; orthodyn uses m/s^2: 9.81", size,
          near(981) ? "cm" : "mm");
   else if (size > 1000)
-    warn(out, place, "{:.4g} m/s^2 is {:.0f} times that of the earth: is it in another unit?", size, size / 9.81);
+    warn(out, place, "{:.4g} m/s^2 is {:.0f} times the gravity of the earth: is the number in another unit?", size,
+         size / 9.81);
   else if (near(9.81) && std::max(g[1], g[2]) > 0.99 * size)
-    warn(out, place, "it points up, along +{}: use -{:.4g} to let bodies fall down", g[1] > g[2] ? 'y' : 'z', size);
+    warn(out, place, "gravity points up, along +{}: use -{:.4g} to let bodies fall down", g[1] > g[2] ? 'y' : 'z',
+         size);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ void check_direction(const CheckContext& context, Warnings& out) {
     const double overlap = first.dot(second);
     if (std::abs(overlap) <= kOblique) return;
     warn(out, axes.where(),
-         "'second' is not normal to 'first', at {:.0f} deg to it: axis 2 is its part normal to axis 1, {}",
+         "'second' is not normal to 'first' (angle {:.0f} deg): axis 2 is the part of 'second' normal to 'first', {}",
          std::acos(overlap) * 180 / std::numbers::pi, shown_direction(second - overlap * first));
   });
 }
@@ -103,8 +103,8 @@ void check_grain(const CheckContext& context, Warnings& out) {
   const Vec3 direction = region.axes->field(mesh, notes)(centroid(mesh, 0), 0).col(grain);
   if (std::abs(direction[thin]) < kAlong) return;
   warn(out, context.config.at("regions").where(),
-       "axis {}, {:.2g} times as stiff as the others, points through the body, along {}, where it is {:.3g} m thin: "
-       "boards and strips usually have the grain along them. Are 'first' and 'second' of 'axes' as intended?",
+       "axis {}, {:.2g} times as stiff as the others, points along {}, through the thickness of the body ({:.3g} m): "
+       "boards and strips usually have the grain in their plane. Are 'first' and 'second' of 'axes' as intended?",
        grain + 1, stiffer, "xyz"[thin], size[thin]);
 }
 
@@ -114,7 +114,7 @@ void add_repeated_clamps(const CheckContext& context, Warnings& out) {
   for (std::size_t i = 0; i < clamps.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (clamps.at(i).yaml() == clamps.at(k).yaml()) {
-        warn(out, clamps.at(i).where(), "the same clamp as clamps.{}: it has no effect. Is it the wrong place?", k);
+        warn(out, clamps.at(i).where(), "is the same clamp as clamps.{} and has no effect. Is its place wrong?", k);
         break;
       }
 }
