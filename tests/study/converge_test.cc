@@ -34,6 +34,14 @@ TEST(Richardson, DoesNotTrustAnOrderThatTheElementsCannotHave) {
               2 + std::pow(2, -10) - (std::pow(2, -5) - std::pow(2, -10)) / 3, 1e-12);
 }
 
+TEST(Richardson, TakesTheFinestOfValuesThatOscillateALittle) {
+  const auto found = extrapolate({1, 1.004, 1.001}, 2, 4);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->limit, 1.001);
+  EXPECT_NEAR(found->uncertainty, 0.004, 1e-15);
+  EXPECT_FALSE(found->order);
+}
+
 TEST(Richardson, FindsNoLimitWhereNoneIsApproached) {
   EXPECT_FALSE(extrapolate({1, 1.2, 1.1}, 2, 4));     // to and fro
   EXPECT_FALSE(extrapolate({1, 1.1, 1.3}, 2, 4));     // away

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -81,17 +82,27 @@ class Table {
     return extrapolate(values, kRatio, 2 * order);
   }
 
-  // The limit for the highest element order that has one, because that order is the most accurate on equal cells.
+  // The limit for the highest element order that has one, because that order is the most accurate on equal cells. A
+  // lower order has none if the finest value of the highest order contradicts it.
   std::optional<Limit> limit(const std::string& metric) const {
     std::optional<Limit> found;
-    for (const int order : wanted_.orders)
-      if (const auto value = extrapolated(values(order, metric), order)) found = Limit{*value, order};
+    const std::vector<double> best = values(wanted_.orders.back(), metric);
+    for (const int order : wanted_.orders) {
+      const auto value = extrapolated(values(order, metric), order);
+      if (!value) continue;
+      const bool agrees = best.empty() || std::abs(best.back() - value->limit) <= value->uncertainty;
+      if (order == wanted_.orders.back() || agrees) found = Limit{*value, order};
+    }
     return found;
   }
 
+  // Relative to the limit; of oscillating values at least their range.
   double error(std::size_t level, const std::string& metric) const {
     const auto found = limit(metric);
-    return found && found->value.limit != 0 ? std::abs(value(level, metric) / found->value.limit - 1) : kNaN;
+    if (!found || found->value.limit == 0) return kNaN;
+    const double distance = std::abs(value(level, metric) - found->value.limit);
+    const double least = found->value.order ? 0 : found->value.uncertainty;
+    return std::max(distance, least) / std::abs(found->value.limit);
   }
 
   double cpu_seconds(std::size_t level, const WantedMetric& metric) const {
