@@ -12,6 +12,7 @@ namespace orthodyn::input_checks {
 namespace {
 
 constexpr double kFar = 0.01;       // over the body's diagonal
+constexpr double kFarNode = 0.02;   // over the body's diagonal
 constexpr double kFarAnchor = 100;  // over the body's diagonal
 constexpr double kHuge = 80;        // m
 constexpr double kTiny = 1e-6;      // m
@@ -131,13 +132,20 @@ void check_place(const CheckContext& context, Warnings& out) {
   const Mesh& mesh = context.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
     const double outside = distance(point, context.box);
-    if (outside <= kFar * context.box.diagonal()) return;
+    if (outside <= kFar * context.box.diagonal()) {
+      const Vec3& node = mesh.node(nearest_node(mesh, point));
+      if (const double away = (node - point).norm(); away > kFarNode * context.box.diagonal())
+        warn(out, place.where(),
+             "{} is at {}, {:.3g} m away from the nearest node, {}, which is taken: give the place of a node, or use "
+             "more cells",
+             what, Value<Vec3>::yaml(point), away, Value<Vec3>::yaml(node));
+      return;
+    }
     const std::string body = fmt::format("the body is {:.3g} m long", context.extent);
     warn(out, place.where(),
          "{} is {:.3g} m outside of the body, at {}: the nearest node, {}, is taken; {}. Is the point in m, and in the "
          "coordinates of the mesh?",
-         what, outside, Value<Vec3>::yaml(point),
-         Value<Vec3>::yaml(mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, point))]), body);
+         what, outside, Value<Vec3>::yaml(point), Value<Vec3>::yaml(mesh.node(nearest_node(mesh, point))), body);
   };
   for (const auto& [name, probe] : context.scene.output.probes)
     check(context.config.at("output").at("probes").at(name), fmt::format("the probe '{}'", name), probe.at);
