@@ -185,7 +185,7 @@ class Kinsol : public EquilibriumSolver {
       if (descends_) {
         stiffness_.linearize(at[n_], at.head(n_), TangentKind::gauss_newton);
       } else {
-        stiffness_.linearize_mixed(before_.lambda, before_.q, at[n_], at.head(n_));
+        stiffness_.linearize_predicted(before_.lambda, before_.q, at[n_], at.head(n_));
         before_ = {at.head(n_), at[n_]};
       }
     });

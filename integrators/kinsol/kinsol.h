@@ -4,8 +4,8 @@
 //     [ K    -p ] [dq]   [ f_l                      ]
 //     [ a^T   b ] [dl] = [ -a.(q - q*) - b (l - l*) ],    p = df_l/dl,
 //
-// and is found by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K is the mixed stiffness
-// (Model::linearize_mixed), which permits long straight steps of slender bodies. It is factored in every iteration.
+// and is found by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K has predicted stresses
+// (Model::linearize_predicted), which permits long straight steps of slender bodies. It is factored in every iteration.
 // Corrections must not grow (Deuflhard, Newton Methods for Nonlinear Problems, 2004); otherwise the solution might lie
 // on another path. The residual need not decrease: it rises at first, because a straight step stretches the body.
 //

@@ -34,7 +34,8 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
 };
 
 const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol", "KINSOL: Newton's method with the mixed stiffness, factored in each iteration.");
+    "kinsol",
+    "KINSOL: Newton's method with predicted stresses (long steps of slender bodies), factored in each iteration.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

@@ -29,11 +29,11 @@ void PathStiffness::linearize(double lambda, const ConstVectorRef& q, TangentKin
   model_.linearize(lambda, q, Vector::Zero(q.size()), kind, linearization_);
 }
 
-void PathStiffness::linearize_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
-                                    const ConstVectorRef& q) {
+void PathStiffness::linearize_predicted(double lambda_before, const ConstVectorRef& q_before, double lambda,
+                                        const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
   q_ = q;
-  model_.linearize_mixed(lambda_before, q_before, lambda, q, linearization_);
+  model_.linearize_predicted(lambda_before, q_before, lambda, q, linearization_);
 }
 
 bool PathStiffness::factor() {

@@ -1,6 +1,6 @@
-// The stiffness K on a path of equilibria, and its factor. K is exact, mixed (Model::linearize_mixed) or positive
-// semidefinite. If the chosen solver does not converge or finds K indefinite, as happens past a limit point, an L D L^T
-// solver replaces it. Not thread-safe.
+// The stiffness K on a path of equilibria, and its factor. K is exact, has predicted stresses
+// (Model::linearize_predicted), or is positive semidefinite. If the chosen solver does not converge or finds K
+// indefinite, as happens past a limit point, an L D L^T solver replaces it. Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,11 @@ class PathStiffness {
   // object.
   PathStiffness(const Model& model, const SolverChoice& solver, Statistics& statistics);
 
-  // Set K at q (m) and load factor lambda. The mixed K also uses the previous iterate (q_before, lambda_before). Both
-  // throw the model's RecoverableError.
+  // Set K at q (m) and load factor lambda. linearize_predicted() also uses the previous iterate (q_before,
+  // lambda_before). Both throw the model's RecoverableError.
   void linearize(double lambda, const ConstVectorRef& q, TangentKind kind);
-  void linearize_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q);
+  void linearize_predicted(double lambda_before, const ConstVectorRef& q_before, double lambda,
+                           const ConstVectorRef& q);
 
   // Factors K. False if K is singular. Throws RunError if memory is short.
   bool factor();

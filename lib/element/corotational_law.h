@@ -104,7 +104,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   // is linear in F - F0. This is the tangent of Newton's method with independent stress unknowns (Magisano, Leonetti &
   // Garcea, CMAME 313, 2017). It excludes the spurious stress of a straight Newton step, which stretches a body that
   // bends. Returns tangent() at H if either state is blended.
-  Form mixed_tangent(const Mat3& H0, const Mat3& H, const Mat3& Q) const {
+  Form predicted_tangent(const Mat3& H0, const Mat3& H, const Mat3& Q) const {
     const Mat3 F0 = deformation_gradient<double>(H0, Q), F = deformation_gradient<double>(H, Q);
     const auto p0 = polar(F0, Q), p = polar(F, Q);
     for (const auto* end : {&p0, &p})

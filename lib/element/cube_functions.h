@@ -1,6 +1,7 @@
-// Quadratic shape functions on the square (D = 2) and the cube (D = 3) [-1, 1]^D, of the node at c, whose coordinates
-// are -1, 0 or 1 (Zienkiewicz & Taylor 2000, vol. 1, ch. 8):
+// Shape functions on the square (D = 2) and the cube (D = 3) [-1, 1]^D, of the node at c, whose coordinates are -1, 0
+// or 1 (Zienkiewicz & Taylor 2000, vol. 1, ch. 8):
 //
+//   multilinear  N = prod_d (1 + c_d x_d)/2; nodes at corners only;
 //   Lagrange     N = prod_d n(c_d, x_d)  with  n(-1, x) = x (x - 1)/2,  n(0, x) = 1 - x^2,  n(1, x) = x (x + 1)/2;
 //   serendipity  N = prod_d f(c_d, x_d)  with  f(-1, x) = (1 - x)/2,    f(0, x) = 1 - x^2,  f(1, x) = (1 + x)/2,
 //                times c . x - (D - 1) at corners; nodes at corners and middles of edges only.
@@ -32,6 +33,11 @@ CubeFunction<D> tensor_product(const CubeCoordinates<D>& values, const CubeCoord
       if (other != d) N.slopes[d] *= values[other];
   }
   return N;
+}
+
+template <int D>
+CubeFunction<D> multilinear(const CubeCoordinates<D>& c, const CubeCoordinates<D>& x) {
+  return tensor_product<D>((CubeCoordinates<D>::Ones() + c.cwiseProduct(x)) / 2, c / 2);
 }
 
 template <int D>

@@ -67,11 +67,13 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;
 };
 
-// An element that can be integrated by any IntegrationRule, not only at its own kPoints.
+// An isoparametric element (isoparametric.h), which can be integrated by any IntegrationRule, not only at its own
+// kPoints.
 template <class E>
 concept HasIntegrationRules = Element<E> &&
     requires(QuadraturePoint at, NodeDifferences<E::kNodes> d, Vec3 xi, Mat3 Q, IntegrationRule rule) {
   { E::point(at, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
+  { E::slopes(at) } -> std::same_as<Eigen::Matrix<double, E::kNodes - 1, 3>>;  // dN_a/dxi of the nodes 1, 2, ...
   { E::shape(xi) } -> std::same_as<Eigen::Matrix<double, E::kNodes, 1>>;
   { E::own_rule() } -> std::same_as<IntegrationRule>;
   { E::part_of_rule(rule, -1.0, 1.0) } -> std::same_as<IntegrationRule>;

@@ -68,6 +68,11 @@ struct Isoparametric : R {
     return point_of(sample_at(at), rest, Q);
   }
 
+  // dN_a/dxi of the nodes 1, 2, ...
+  static Eigen::Matrix<double, kNodes - 1, 3> slopes(const QuadraturePoint& at) {
+    return R::shape_slopes(at.place).template bottomRows<kNodes - 1>();
+  }
+
   static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * R::shape(place(p)); }
 
   static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
@@ -120,9 +125,7 @@ struct Isoparametric : R {
     double weight;
   };
 
-  static Sample sample_at(const QuadraturePoint& at) {
-    return {R::shape(at.place), R::shape_slopes(at.place).template bottomRows<kNodes - 1>(), at.weight};
-  }
+  static Sample sample_at(const QuadraturePoint& at) { return {R::shape(at.place), slopes(at), at.weight}; }
   static std::vector<Sample> samples_at(const std::vector<QuadraturePoint>& points) {
     std::vector<Sample> samples;
     for (const QuadraturePoint& at : points) samples.push_back(sample_at(at));

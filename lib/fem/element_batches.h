@@ -1,6 +1,6 @@
-// The elements of one region in batches of Batch::kLanes: node numbers and, per integration point, shape gradients and
-// volume, lane by lane. The last batch is padded with copies of the last element with zero volume. They add nothing,
-// and use only nodes of the last group of elements (element_groups.h).
+// The elements of one region in batches of Batch::kLanes: node numbers and, per integration point, the data of
+// PointBatch. The last batch is padded with copies of the last element with zero volume. They add nothing, and use only
+// nodes of the last group of elements (element_groups.h).
 //
 // Const functions may run concurrently for elements without a common node, or with different force vectors.
 #pragma once
@@ -15,6 +15,7 @@
 #include "lib/fem/dof_map.h"
 #include "lib/fem/element_axes.h"
 #include "lib/fem/element_mesh.h"
+#include "lib/fem/point_batch.h"
 
 namespace orthodyn {
 
@@ -26,7 +27,7 @@ class ElementBatches {
   static constexpr int kLanes = Batch::kLanes, kNodes = E::kNodes;
   using Nodes = std::array<int, static_cast<std::size_t>(kNodes)>;
   // One column per node except the first.
-  using Columns = Eigen::Matrix<Batch, 3, kNodes - 1>;
+  using Columns = typename PointBatch<E>::Columns;
 
   // `axes` are in the order of `cells`. `rule`: null for the points of E. The arguments need not outlive this object.
   ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes,
@@ -58,8 +59,8 @@ class ElementBatches {
   Mat3 gradient(int k, int p, const NodalVector& u) const { return point(k, p).gradient(differences_of(nodes(k), u)); }
 
   // Volume of a point, m^3; zero for padding.
-  Batch volumes(int batch, int point) const { return Batch::load(at_point(batch, point).volume); }
-  double volume(int k, int point) const { return at_point(k / kLanes, point).volume[lane(k)]; }
+  Batch volumes(int batch, int point) const { return at_point(batch, point).volumes(); }
+  double volume(int k, int point) const { return at_point(k / kLanes, point).volume(k % kLanes); }
 
   // Adds the nodal forces -V dPsi/dx (N) of a point of a batch or of an element to f, where V is the point's volume and
   // Psi the energy density. `P`: the stress times the axes, P Q (Pa). For a batch, f has the forces on the nodes 1, 2,
@@ -69,34 +70,21 @@ class ElementBatches {
   void add_force(int k, int point, const Mat3& P, NodalVector& f) const;
 
  private:
-  static constexpr int kGradients = 3 * (kNodes - 1);
-  using GradientBatch = Eigen::Matrix<Batch, kNodes - 1, 3>;
+  using Point = PointBatch<E>;
+  using Shared = typename Point::Shared;
   using Lanes = std::make_index_sequence<static_cast<std::size_t>(kLanes)>;
 
-  struct Point {
-    alignas(64) double B[kGradients][kLanes];  // column-major
-    double volume[kLanes];
-  };
-
   static NodeDifferences<kNodes> differences_of(const Nodes& nodes, const NodalVector& u);
-  static ElementPoint<kNodes> point_at_rest(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q,
-                                            const IntegrationRule* rule);
   std::size_t index(int batch, int point) const { return static_cast<std::size_t>(batch * num_points() + point); }
   const Point& at_point(int batch, int point) const { return points_[index(batch, point)]; }
+  const Shared& shared(int point) const { return shared_[static_cast<std::size_t>(point)]; }
   static std::size_t lane(int k) { return static_cast<std::size_t>(k % kLanes); }
 
   int size_, num_points_;
   std::vector<std::array<Nodes, kLanes>> nodes_;  // per batch
   std::vector<Point> points_;                     // batch-major
+  std::vector<Shared> shared_;                    // per point
 };
-
-template <Element E>
-auto ElementBatches<E>::point_at_rest(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q,
-                                      const IntegrationRule* rule) -> ElementPoint<kNodes> {
-  if constexpr (HasIntegrationRules<E>)
-    if (rule) return E::point(rule->points[static_cast<std::size_t>(p)], rest, Q);
-  return E::point(p, rest, Q);
-}
 
 template <Element E>
 ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes,
@@ -105,37 +93,26 @@ ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int
       num_points_(rule ? static_cast<int>(rule->points.size()) : E::kPoints),
       nodes_((cells.size() + static_cast<std::size_t>(kLanes) - 1) / static_cast<std::size_t>(kLanes)),
       points_(nodes_.size() * static_cast<std::size_t>(num_points_)) {
+  for (int p = 0; p < num_points_; ++p) shared_.push_back(Point::shared(p, rule));
   for (int k = 0; k < num_batches() * kLanes; ++k) {
     const bool filler = k >= size_;
     const int element = filler ? size_ - 1 : k;
     const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(element)]);
     const NodeDifferences<kNodes> rest = orthodyn::differences<kNodes>(mesh.positions(cell));
     std::copy_n(mesh.cells[cell].begin(), kNodes, nodes_[static_cast<std::size_t>(k / kLanes)][lane(k)].begin());
-    for (int p = 0; p < num_points_; ++p) {
-      const ElementPoint<kNodes> point = point_at_rest(p, rest, axes.of(element, p), rule);
-      Point& out = points_[index(k / kLanes, p)];
-      for (int i = 0; i < kGradients; ++i) out.B[i][lane(k)] = point.B(i);
-      out.volume[lane(k)] = filler ? 0 : point.volume;
-    }
+    for (int p = 0; p < num_points_; ++p)
+      points_[index(k / kLanes, p)].set(k % kLanes, p, rest, axes.of(element, p), shared(p), rule, filler);
   }
 }
 
 template <Element E>
 auto ElementBatches<E>::point(int k, int p) const -> ElementPoint<kNodes> {
-  const Point& point = at_point(k / kLanes, p);
-  ElementPoint<kNodes> out;
-  for (int i = 0; i < kGradients; ++i) out.B(i) = point.B[i][lane(k)];
-  out.volume = point.volume[lane(k)];
-  return out;
+  return at_point(k / kLanes, p).of_lane(k % kLanes, shared(p));
 }
 
 template <Element E>
 auto ElementBatches<E>::points(int batch, int p) const -> ElementPoint<kNodes, Batch> {
-  const Point& point = at_point(batch, p);
-  ElementPoint<kNodes, Batch> out;
-  for (int i = 0; i < kGradients; ++i) out.B(i) = Batch::load(point.B[i]);
-  out.volume = Batch::load(point.volume);
-  return out;
+  return at_point(batch, p).all(shared(p));
 }
 
 template <Element E>
@@ -169,29 +146,13 @@ template <Element E>
 
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p, const Columns& u) const {
-  const Point& point = at_point(batch, p);
-  Mat3T<Batch> out = Mat3T<Batch>::Zero();
-  for (int a = 0; a < kNodes - 1; ++a)
-    for (int j = 0; j < 3; ++j) {
-      const Batch B = Batch::load(point.B[(kNodes - 1) * j + a]);
-      for (int i = 0; i < 3; ++i) out(i, j) += u(i, a) * B;
-    }
-  return out;
+  return at_point(batch, p).gradient(u, shared(p));
 }
 
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P, bool first,
                                                                    Columns& f) const {
-  const Point& point = at_point(batch, p);
-  const Mat3T<Batch> stress = -Batch::load(point.volume) * P;
-  for (int a = 0; a < kNodes - 1; ++a) {
-    std::array<Batch, 3> B;
-    for (int j = 0; j < 3; ++j) B[static_cast<std::size_t>(j)] = Batch::load(point.B[(kNodes - 1) * j + a]);
-    for (int i = 0; i < 3; ++i) {
-      const Batch force = stress(i, 0) * B[0] + stress(i, 1) * B[1] + stress(i, 2) * B[2];
-      f(i, a) = first ? force : f(i, a) + force;
-    }
-  }
+  at_point(batch, p).add_forces(P, first, f, shared(p));
 }
 
 template <Element E>

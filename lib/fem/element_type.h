@@ -61,13 +61,15 @@ class ElementType {
 
 const ElementType& linear_tetrahedron();
 const ElementType& quadratic_tetrahedron();
+const ElementType& linear_hexahedron();        // 8 nodes
 const ElementType& quadratic_hexahedron();     // 20 nodes, reduced integration: 8 points
 const ElementType& quadratic_hexahedron_14();  // 20 nodes, full integration: 14 points
 const ElementType& triquadratic_hexahedron();  // 27 nodes
+const ElementType& linear_wedge();             // 6 nodes
 const ElementType& quadratic_wedge();          // 15 nodes
 const ElementType& biquadratic_wedge();        // 18 nodes
 
-// The element of a cell's shape. Throws ConfigError for shapes without an element: linear wedges and hexahedra.
+// The element type of a solid cell's shape.
 const ElementType& element_type(CellShape shape);
 
 }  // namespace orthodyn

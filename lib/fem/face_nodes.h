@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/element/quad4.h"
 #include "lib/element/quad8.h"
 #include "lib/element/quad9.h"
 #include "lib/element/tri3.h"
@@ -12,8 +13,7 @@
 
 namespace orthodyn {
 
-// Calls visit.operator()<F>(nodes, X) for each face, with its type F, node indices and positions at rest. Precondition:
-// the cells of the mesh have elements.
+// Calls visit.operator()<F>(nodes, X) for each face, with its type F, node indices and positions at rest.
 template <class Visit>
 void for_each_face(const Mesh& mesh, const std::vector<FaceCorners>& corners, const Visit& visit) {
   const Cells faces = face_cells(mesh, corners);
@@ -26,6 +26,7 @@ void for_each_face(const Mesh& mesh, const std::vector<FaceCorners>& corners, co
     switch (faces.shape(k)) {
       case CellShape::tri3: of_type.template operator()<Tri3>(); break;
       case CellShape::tri6: of_type.template operator()<Tri6>(); break;
+      case CellShape::quad4: of_type.template operator()<Quad4>(); break;
       case CellShape::quad8: of_type.template operator()<Quad8>(); break;
       case CellShape::quad9: of_type.template operator()<Quad9>(); break;
       default: break;

@@ -87,11 +87,11 @@ void term_tangents(const FemModel::Parts& parts, const NodalExpansion& nodal, co
   });
 }
 
-void term_mixed_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
-                         const std::vector<const Term*>& some, Linearization& out) {
+void term_predicted_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
+                             const std::vector<const Term*>& some, Linearization& out) {
   out.stiffness.assign(parts.pattern->pattern().row.size(), 0);
   on_all_ranks(parts.subdomain.get(), [&] {
-    for (const Term* term : some) term->add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
+    for (const Term* term : some) term->add_predicted_tangent(before.state(), nodal.state(), out.stiffness.data());
   });
 }
 
@@ -136,11 +136,11 @@ void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef&
   term_tangents(parts_, NodalExpansion(parts_, t, q, v), all_terms(parts_), kind, out);
 }
 
-void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                              Linearization& out) const {
+void FemModel::assemble_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                                  Linearization& out) const {
   const Vector still = Vector::Zero(q.size());
   const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
-  term_mixed_tangents(parts_, before, nodal, all_terms(parts_), out);
+  term_predicted_tangents(parts_, before, nodal, all_terms(parts_), out);
 }
 
 void FemModel::combine(const Weights& w, const Linearization& at, double* values) const {

@@ -102,8 +102,8 @@ class FemModel : public Model {
  private:
   void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                 Linearization& out) const override;
-  void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                      Linearization& out) const override;
+  void assemble_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                          Linearization& out) const override;
 
   Parts parts_;
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null if a force has no energy, or with several ranks
@@ -125,12 +125,12 @@ struct NodalExpansion {
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,
                         const std::vector<const Term*>& some);
-// Tangents of some terms, as defined by Model::linearize() and linearize_mixed(). The load factor is not applied.
+// Tangents of some terms, as defined by Model::linearize() and linearize_predicted(). The load factor is not applied.
 // Collective.
 void term_tangents(const FemModel::Parts& parts, const NodalExpansion& nodal, const std::vector<const Term*>& some,
                    TangentKind kind, Linearization& out);
-void term_mixed_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
-                         const std::vector<const Term*>& some, Linearization& out);
+void term_predicted_tangents(const FemModel::Parts& parts, const NodalExpansion& before, const NodalExpansion& nodal,
+                             const std::vector<const Term*>& some, Linearization& out);
 std::vector<const Term*> all_terms(const FemModel::Parts& parts);
 // Names of the terms, duplicates numbered: "traction on x1 (2)".
 std::vector<std::string> term_names(const std::vector<const Term*>& terms);

@@ -101,11 +101,11 @@ class PartModel : public Model {
     term_tangents(whole_.parts(), NodalExpansion(whole_.parts(), t, q, v), terms_, kind, out);
   }
 
-  void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                      Linearization& out) const override {
+  void assemble_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                          Linearization& out) const override {
     const Vector still = Vector::Zero(q.size());
     const NodalExpansion before(whole_.parts(), t_before, q_before, still), nodal(whole_.parts(), t, q, still);
-    term_mixed_tangents(whole_.parts(), before, nodal, terms_, out);
+    term_predicted_tangents(whole_.parts(), before, nodal, terms_, out);
   }
 
   const FemModel& whole_;

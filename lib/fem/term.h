@@ -63,8 +63,8 @@ class Term {
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 
-  // Adds -df/dx as defined by Model::linearize_mixed().
-  virtual void add_mixed_tangent(const NodalState& /*before*/, const NodalState& s, double* stiffness) const {
+  // Adds -df/dx as defined by Model::linearize_predicted().
+  virtual void add_predicted_tangent(const NodalState& /*before*/, const NodalState& s, double* stiffness) const {
     add_tangent(s, TangentKind::exact, stiffness, nullptr);
   }
 

@@ -60,9 +60,8 @@ struct CellData {
 // What becomes of the hexahedra and wedges of a file. Pyramids, and elements that collapse to fewer corners, are always
 // split, and with them all elements of the file, so that faces match.
 enum class FileCells {
-  keep_quadratic,  // quadratic ones stay as they are; linear ones, which have no element, are split into tetrahedra
-  keep,            // linear ones stay, too: the mesh will be made quadratic
-  split,           // into tetrahedra
+  keep,
+  split,  // into tetrahedra
 };
 
 struct LoadedMesh {

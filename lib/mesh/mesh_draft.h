@@ -113,6 +113,6 @@ struct MeshDraft {
 // elements, and if splitting changes the volume. Throws ConfigError for undefined tags, tags that are defined twice, a
 // mesh without elements, linear beside quadratic elements, a tet on a quadrilateral that does not match its diagonal,
 // and a mesh that validate() refuses.
-LoadedMesh build_mesh(MeshDraft draft, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh build_mesh(MeshDraft draft, FileCells cells = FileCells::keep);
 
 }  // namespace orthodyn

@@ -20,6 +20,9 @@ Barycentric barycentric(const Mesh& mesh, std::span<const int> corners, const Ve
   return {1 - L.sum(), L[0], L[1], L[2]};
 }
 
+template <class E>
+constexpr bool kIsHexahedron = E::kNodes == 8 || E::kNodes >= 20;
+
 // Coordinates of a nearby point within the element.
 Barycentric clamped(const Barycentric& L) {
   const Barycentric inside = L.cwiseMax(0);
@@ -27,7 +30,7 @@ Barycentric clamped(const Barycentric& L) {
 }
 template <class E>
 Vec3 clamped(const Vec3& x) {
-  if constexpr (E::kNodes >= 20) {
+  if constexpr (kIsHexahedron<E>) {
     return x.cwiseMax(-1).cwiseMin(1);
   } else {
     Vec3 inside(std::max(x[0], 0.0), std::max(x[1], 0.0), std::clamp(x[2], -1.0, 1.0));
@@ -41,7 +44,7 @@ template <class E>
 Vec3 natural(const ElementNodes<E::kNodes>& X, const Vec3& place) {
   constexpr int kSteps = 20;
   constexpr double kFar = 2, kConverged = 1e-14;
-  Vec3 x = E::kNodes >= 20 ? Vec3(0, 0, 0) : Vec3(1.0 / 3, 1.0 / 3, 0);
+  Vec3 x = kIsHexahedron<E> ? Vec3(0, 0, 0) : Vec3(1.0 / 3, 1.0 / 3, 0);
   const NodeDifferences<E::kNodes> rest = differences<E::kNodes>(X);
   for (int k = 0; k < kSteps; ++k) {
     const Vec3 step = E::jacobian(rest, x).inverse() * (place - X * E::shape(x));
@@ -89,7 +92,7 @@ double distance_from_box(const Mesh& mesh, std::span<const int> nodes, const Vec
 Found in_cell(const Mesh& mesh, std::size_t cell, const Vec3& place) {
   Found found{std::numeric_limits<double>::infinity(), {}};
   with_element(mesh.cells.shape(cell), [&]<class E>() {
-    if constexpr (E::kNodes > 10) {
+    if constexpr (!std::is_same_v<E, Tet4> && !std::is_same_v<E, Tet10>) {
       const auto X = positions<E>(mesh, cell);
       const Vec3 x = natural<E>(X, place), inside = clamped<E>(x);
       const auto N = E::shape(inside);

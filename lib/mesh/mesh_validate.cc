@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/mesh/folded_cells.h"
 #include "lib/mesh/mesh.h"
 #include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/quadratic.h"
@@ -251,6 +252,7 @@ Warnings validate(Mesh& mesh, const MeshOrigin& origin) {
   check_coincident_nodes(mesh, used, origin);
   check_volumes(mesh, origin);
   if (mesh.order() == 2) validate_quadratic(mesh, origin);
+  check_folding(mesh, origin);
   const std::vector<MeshFace> faces = sorted_faces(mesh);
   check_overlaps(mesh, faces, origin);
   check_matching_faces(mesh, faces, origin);

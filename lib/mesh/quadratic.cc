@@ -45,8 +45,6 @@ void add_middles(const MiddleNodes& middles, const std::vector<FaceCorners>& sur
   set.erase(std::unique(set.begin(), set.end()), set.end());
 }
 
-constexpr double kFolded = 1e-6;  // smallest ratio of the Jacobian's determinant to its reference
-
 // A middle node must belong to one edge or face only, and an edge or face must have the same middle node in all its
 // elements.
 void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
@@ -112,60 +110,11 @@ void check_face_middles(const Mesh& mesh, const MeshOrigin& origin) {
   }
 }
 
-// The Jacobian of an element's map must keep its orientation at all evaluation points. It is constant in a tetrahedron
-// with straight edges.
-template <class E>
-double smallest_jacobian(const ElementNodes<E::kNodes>& X) {
-  const NodeDifferences<E::kNodes> rest = differences<E::kNodes>(X);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& place : E::checked_places()) smallest = std::min(smallest, E::jacobian(rest, place).determinant());
-  return smallest;
-}
-
-bool has_straight_edges(const ElementNodes<Tet10::kNodes>& X) {
-  for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = Tet10::kEdges[static_cast<std::size_t>(e)];
-    if ((X.col(4 + e) - 0.5 * (X.col(i) + X.col(j))).norm() > 1e-12 * (X.col(i) - X.col(j)).norm()) return false;
-  }
-  return true;
-}
-
-void check_folding(const Mesh& mesh, const MeshOrigin& origin) {
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    double smallest = 1;
-    with_element(mesh.cells.shape(c), [&]<class E>() {
-      const auto X = positions<E>(mesh, c);
-      if constexpr (std::is_same_v<E, Tet10>) {
-        if (has_straight_edges(X)) return;
-        const auto corners = mesh.cells.corners(c);
-        smallest = smallest_jacobian<E>(X) / signed_volume6(mesh, {corners[0], corners[1], corners[2], corners[3]});
-      } else if constexpr (E::kDegree == 2) {
-        constexpr double kReferenceVolume = E::kNodes >= 20 ? 8 : 1;  // of the hexahedron, of the wedge
-        smallest = smallest_jacobian<E>(X) / (E::mass(X, 1) / kReferenceVolume);
-      }
-    });
-    if (smallest > kFolded) continue;
-    const int cell = static_cast<int>(c);
-    if (mesh.cells.shape(c) == CellShape::tet10)
-      throw ConfigError(
-          origin.cell(cell),
-          fmt::format("its curved edges fold it over (det dX/dL is {:.3g} of that with straight edges); remesh finer, "
-                      "straighten it (Gmsh: Mesh.SecondOrderLinear = 1), or optimise it (Gmsh: Mesh.HighOrderOptimize)",
-                      smallest));
-    throw ConfigError(
-        origin.cell(cell),
-        fmt::format("folded over: at one of its points the determinant of the Jacobian is {:.3g} of its mean; remesh, "
-                    "or set `split: true`, so that it becomes tetrahedra",
-                    smallest));
-  }
-}
-
 }  // namespace
 
 void validate_quadratic(const Mesh& mesh, const MeshOrigin& origin) {
   check_middle_nodes(mesh, origin);
   check_face_middles(mesh, origin);
-  check_folding(mesh, origin);
 }
 
 void MiddleNodes::add(const Mesh& mesh, std::size_t c) {

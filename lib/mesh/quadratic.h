@@ -47,7 +47,7 @@ void make_quadratic(Mesh& mesh, const MiddlePlace& place = {});
 // mesh.
 void add_centres(Mesh& mesh);
 
-// The checks of validate() for quadratic meshes: folded elements, inconsistent middle nodes. Throws ConfigError.
+// The checks of validate() for the middle nodes of quadratic meshes. Throws ConfigError.
 void validate_quadratic(const Mesh& mesh, const MeshOrigin& origin);
 
 // Removes the nodes that are not corners. Returns the names of node sets that become empty.

@@ -75,7 +75,7 @@ bool can_keep_cells(const MeshDraft& draft, FileCells cells) {
   return std::all_of(draft.cells.begin(), draft.cells.end(), [&](const FileCell& cell) {
     if (cell.kind == CellKind::tet) return true;
     if (cell.kind == CellKind::pyramid || is_collapsed(cell)) return false;
-    if (!cell.is_quadratic()) return cells == FileCells::keep;
+    if (!cell.is_quadratic()) return true;
     return !nodes_of(cell, quadratic_shapes(cell.kind)[1]).empty();
   });
 }

@@ -22,15 +22,16 @@ void Model::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v
   if (constant) out.filled_by_ = number_.value();
 }
 
-void Model::linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                            Linearization& out) const {
+void Model::linearize_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                                Linearization& out) const {
   if (traits().linear) return linearize(t, q, Vector::Zero(q.size()), TangentKind::exact, out);
   out.filled_by_ = 0;
   out.damping.clear();
-  assemble_mixed(t_before, q_before, t, q, out);
+  assemble_predicted(t_before, q_before, t, q, out);
 }
 
-void Model::assemble_mixed(double, const ConstVectorRef&, double t, const ConstVectorRef& q, Linearization& out) const {
+void Model::assemble_predicted(double, const ConstVectorRef&, double t, const ConstVectorRef& q,
+                               Linearization& out) const {
   assemble(t, q, Vector::Zero(q.size()), TangentKind::exact, out);
 }
 

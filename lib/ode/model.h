@@ -100,13 +100,13 @@ class Model : public OutputSource {
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                  Linearization& out) const;
 
-  // Computes the mixed K: K at q, but with the stresses that K at q_before predicts for q instead of the stresses at q.
-  // This is the matrix of Newton's method for a mixed formulation, in which stresses are unknowns. A straight step
-  // stretches a body that bends. The mixed K stays definite, and Newton's method converges, for far longer steps than
-  // with the exact K. The default implementation returns the exact K, which is also the result for equal states. `out`
+  // Computes K at q with predicted stresses: those that K at q_before predicts for q, instead of the stresses at q.
+  // This is the matrix of Newton's method with independent stress unknowns. A straight step stretches a body that
+  // bends. With predicted stresses K stays definite, and Newton's method converges, for far longer steps than with the
+  // exact K. The default implementation returns the exact K, which is also the result for equal states. `out`
   // has no damping. Throws as linearize() does.
-  void linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                       Linearization& out) const;
+  void linearize_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                           Linearization& out) const;
 
   // Computes values = w_m M + w_d D + w_k K. `at`: D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;
@@ -165,9 +165,9 @@ class Model : public OutputSource {
   virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                         Linearization& out) const = 0;
 
-  // Computes the K of linearize_mixed(), and overwrites `out`.
-  virtual void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
-                              Linearization& out) const;
+  // Computes the K of linearize_predicted(), and overwrites `out`.
+  virtual void assemble_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                                  Linearization& out) const;
 
   Number number_;
 };

@@ -158,10 +158,8 @@ AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, co
   const std::string content = read_text_file(path);
   const AbaqusFile deck = read_abaqus_keywords(path, content);
   LoadedMesh loaded = read_abaqus_text(path, content);
-  // Plies need the file's hexahedra; linear ones stay if the mesh becomes quadratic.
-  const bool becomes_quadratic = !loaded.layups.empty() && loaded.mesh.order() == 1;
-  if (becomes_quadratic) loaded = read_abaqus_text(path, content, FileCells::keep);
-  const std::string order = becomes_quadratic ? ", order: 2" : "";
+  // Plies bend: linear elements would be too stiff.
+  const std::string order = !loaded.layups.empty() && loaded.mesh.order() == 1 ? ", order: 2" : "";
   convert_to_si(loaded, options.units, path);
   const SceneConditions conditions = conditions_of(deck, loaded, options);
   AbaqusScene scene;

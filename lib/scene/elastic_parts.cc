@@ -24,29 +24,45 @@ std::vector<std::vector<int>> cells_of_regions(const Mesh& mesh) {
   return cells;
 }
 
-// The shape of a region's cells. Refuses several shapes: fields are recovered from elements of one type.
-CellShape shape_of_region(const Mesh& mesh, const std::string& region, const std::vector<int>& cells) {
-  const auto shape_at = [&](int cell) { return mesh.cells.shape(static_cast<std::size_t>(cell)); };
-  const CellShape shape = shape_at(cells.front());
-  const auto other = std::find_if(cells.begin(), cells.end(), [&](int cell) { return shape_at(cell) != shape; });
-  if (other != cells.end())
-    throw ConfigError("mesh",
-                      fmt::format("region '{}' has {} and {}; a region has elements of one kind: put each kind into a "
-                                  "region of its own, or set `split: true` to make all of them tetrahedra",
-                                  region, topology(shape).plural, topology(shape_at(*other)).plural));
-  return shape;
+using CellsByShape = std::map<CellShape, std::vector<int>>;
+
+CellsByShape by_shape(const Mesh& mesh, const std::vector<int>& cells) {
+  CellsByShape out;
+  for (const int cell : cells) out[mesh.cells.shape(static_cast<std::size_t>(cell))].push_back(cell);
+  return out;
 }
 
-// The element type of a region without a layup. `in_row`: cells_in_rows().
-const ElementType& type_of_region(const Region& region, CellShape shape, const std::vector<int>& cells,
-                                  const std::vector<char>& in_row) {
-  if (shape != CellShape::hex20) {
-    if (region.integration != Integration::automatic)
-      region.origin.fail(
-          fmt::format("integration: can be chosen for hexahedra of 20 nodes only, but the region has {}; remove it",
-                      topology(shape).plural));
-    return element_type(shape);
+std::string names_of(const CellsByShape& cells) {
+  std::string names;
+  for (const auto& [shape, own] : cells) names += (names.empty() ? "" : " and ") + std::string(topology(shape).plural);
+  return names;
+}
+
+void check_shapes(const Region& region, const std::string& name, const CellsByShape& cells) {
+  if (region.integration != Integration::automatic && !cells.contains(CellShape::hex20))
+    region.origin.fail(
+        fmt::format("integration: can be chosen for hexahedra of 20 nodes only, but the region has {}; remove it",
+                    names_of(cells)));
+  if (!region.layup.empty() && cells.size() > 1)
+    region.origin.fail(
+        fmt::format("layup: region '{}' has {}; plies need elements of one kind: put each kind into a region of its "
+                    "own",
+                    name, names_of(cells)));
+}
+
+// "tetrahedra", "wedges" or "hexahedra".
+const char* kind_of(CellShape shape) {
+  switch (topology(shape).corners) {
+    case 4: return "tetrahedra";
+    case 6: return "wedges";
+    default: return "hexahedra";
   }
+}
+
+// The element type of a region's cells of one shape. `in_row`: cells_in_rows().
+const ElementType& type_of_cells(const Region& region, CellShape shape, const std::vector<int>& cells,
+                                 const std::vector<char>& in_row) {
+  if (shape != CellShape::hex20) return element_type(shape);
   const bool has_rows =
       std::any_of(cells.begin(), cells.end(), [&](int cell) { return in_row[static_cast<std::size_t>(cell)] != 0; });
   const bool full =
@@ -92,13 +108,14 @@ class PartMaker {
  public:
   PartMaker(const Scene& scene, Mesh& mesh, ElasticParts& out) : scene_(scene), mesh_(mesh), out_(out) {}
 
+  // `kind`: of these cells, if the region has several kinds; else empty.
   void add(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
-           std::vector<int> cells, Warnings& notes) {
+           const std::string& kind, std::vector<int> cells, Warnings& notes) {
     if (!entry.layup.empty()) return add_plies(region, entry, axes, type, notes);
     const Material& material = material_named(scene_, entry.material);
     set_density(cells, material.density());
-    out_.parts.push_back(
-        {mesh_.region_names[region], region, &entry, &material, axes, &type, std::move(cells), 1, material.density()});
+    out_.parts.push_back({mesh_.region_names[region] + (kind.empty() ? "" : "." + kind), region, &entry, &material,
+                          axes, &type, std::move(cells), 1, material.density()});
   }
 
  private:
@@ -170,9 +187,12 @@ ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>&
     if (cells[r].empty()) continue;
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
-    const CellShape shape = shape_of_region(mesh, mesh.region_names[r], cells[r]);
-    const ElementType& type = type_of_region(region, shape, cells[r], in_row);
-    maker.add(r, region, field, type, std::move(cells[r]), notes);
+    CellsByShape shapes = by_shape(mesh, cells[r]);
+    check_shapes(region, mesh.region_names[r], shapes);
+    for (auto& [shape, own] : shapes) {
+      const ElementType& type = type_of_cells(region, shape, own, in_row);
+      maker.add(r, region, field, type, shapes.size() > 1 ? kind_of(shape) : "", std::move(own), notes);
+    }
   }
   return out;
 }

@@ -1,4 +1,5 @@
-// The elastic parts of a scene's body: its regions, or the plies of layered regions.
+// The elastic parts of a scene's body: its regions, the plies of layered regions, and the elements of each kind in
+// regions of several kinds.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,7 @@
 namespace orthodyn {
 
 struct ElasticPart {
-  std::string name;     // "REGION", "REGION.ply_2", or "REGION.ply_2_1" for a part of a ply
+  std::string name;     // "REGION", "REGION.hexahedra", "REGION.ply_2", or "REGION.ply_2_1" for a part of a ply
   std::size_t region;   // index in the mesh
   const Region* entry;  // the region's section in the scene
   const Material* material;
@@ -21,7 +22,7 @@ struct ElasticPart {
   std::vector<int> cells;  // ascending
   double share = 1;        // thickness of the ply relative to its cells; 1 for a region
   double density;          // kg/m^3, the mean over the thickness of its cells
-  std::string ply = {};    // "REGION.ply_2" for all parts of this ply; "" for a region
+  std::string ply = {};    // "REGION.ply_2" for all parts of this ply; "" for other parts
 };
 
 struct ElasticParts {
@@ -31,8 +32,8 @@ struct ElasticParts {
 };
 
 // The parts of all regions that have cells. `regions`: result of assign_regions(). Renumbers the nodes of cells in
-// layered regions. Throws ConfigError for a region with cells of several shapes, for `integration` without hexahedra of
-// 20 nodes, and like make_stack(). Scene and regions must outlive the result.
+// layered regions. Throws ConfigError for a layered region with cells of several shapes, for `integration` without
+// hexahedra of 20 nodes, and like make_stack(). Scene and regions must outlive the result.
 ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>& regions, Mesh& mesh, Warnings& notes);
 
 // Adds the elastic terms to `parts`. `own`: the elements of this rank. Axes are evaluated on the whole mesh.

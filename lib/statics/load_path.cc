@@ -107,9 +107,9 @@ void LoadPath::assemble(double lambda, const ConstVectorRef& q, const ConstVecto
   add_load_tangent(lambda, q, kind, out);
 }
 
-void LoadPath::assemble_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
-                              const ConstVectorRef& q, Linearization& out) const {
-  structure().linearize_mixed(times_.at(lambda_before), q_before, times_.at(lambda), q, out);
+void LoadPath::assemble_predicted(double lambda_before, const ConstVectorRef& q_before, double lambda,
+                                  const ConstVectorRef& q, Linearization& out) const {
+  structure().linearize_predicted(times_.at(lambda_before), q_before, times_.at(lambda), q, out);
   add_load_tangent(lambda, q, TangentKind::exact, out);
 }
 

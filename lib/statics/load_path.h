@@ -78,8 +78,8 @@ class LoadPath : public Model {
   void classify_loads();
   void assemble(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                 Linearization& out) const override;
-  void assemble_mixed(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q,
-                      Linearization& out) const override;
+  void assemble_predicted(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q,
+                          Linearization& out) const override;
   void add_load_tangent(double lambda, const ConstVectorRef& q, TangentKind kind, Linearization& out) const;
   const Model& structure() const { return structure_ ? *structure_ : model_; }
 

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "tests/element/quadratic_element_tests.h"
+#include "tests/element/isoparametric_tests.h"
 
 namespace orthodyn::hex20_test {
 namespace {
 
-using namespace quadratic_element_tests;
+using namespace isoparametric_tests;
 
 struct Hex20Case {
   using Element = Hex20;
@@ -20,7 +20,7 @@ struct Hex20Case {
   static bool interpolates(int i, int j, int k) { return i <= 1 && j <= 1 && k <= 1; }
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Hex20, QuadraticElement, Hex20Case);
+INSTANTIATE_TYPED_TEST_SUITE_P(Hex20, IsoparametricElement, Hex20Case);
 
 const std::vector<QuadraturePoint>& reduced() { return Hex20::points(); }
 

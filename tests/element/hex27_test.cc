@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/element/quadratic_element_tests.h"
+#include "tests/element/isoparametric_tests.h"
 
 namespace orthodyn::hex27_test {
 namespace {
 
-using namespace quadratic_element_tests;
+using namespace isoparametric_tests;
 
 struct Hex27Case {
   using Element = Hex27;
@@ -16,7 +16,7 @@ struct Hex27Case {
   static bool interpolates(int, int, int) { return true; }
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Hex27, QuadraticElement, Hex27Case);
+INSTANTIATE_TYPED_TEST_SUITE_P(Hex27, IsoparametricElement, Hex27Case);
 
 TEST(Hex27, LumpedSharesAreAlsoTheRowSumsOfTheConsistentMass) {
   const Vector sums = Hex27::consistent_mass(Hex27::nodes(), 1).rowwise().sum() / 8;

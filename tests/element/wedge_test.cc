@@ -5,12 +5,12 @@
 
 #include "lib/element/wedge15.h"
 #include "lib/element/wedge18.h"
-#include "tests/element/quadratic_element_tests.h"
+#include "tests/element/isoparametric_tests.h"
 
 namespace orthodyn::wedge_test {
 namespace {
 
-using namespace quadratic_element_tests;
+using namespace isoparametric_tests;
 
 struct Wedge15Case {
   using Element = Wedge15;
@@ -26,8 +26,8 @@ struct Wedge18Case {
   static bool interpolates(int i, int j, int) { return i + j <= 2; }
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Wedge15, QuadraticElement, Wedge15Case);
-INSTANTIATE_TYPED_TEST_SUITE_P(Wedge18, QuadraticElement, Wedge18Case);
+INSTANTIATE_TYPED_TEST_SUITE_P(Wedge15, IsoparametricElement, Wedge15Case);
+INSTANTIATE_TYPED_TEST_SUITE_P(Wedge18, IsoparametricElement, Wedge18Case);
 
 // The mean of L1^a L2^b L3^c over a triangle is 2 a! b! c!/(a + b + c + 2)!.
 double exact(int a, int b, int c) {

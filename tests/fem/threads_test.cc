@@ -48,9 +48,9 @@ class Threads : public testing::TestWithParam<Case> {
       model.combine({1, 2, 3}, at, sum.data());
       keep(sum);
     }
-    Linearization mixed;
-    model.linearize_mixed(0, 0.5 * q_, 0, q_, mixed);
-    keep(mixed.stiffness);
+    Linearization predicted;
+    model.linearize_predicted(0, 0.5 * q_, 0, q_, predicted);
+    keep(predicted.stiffness);
     if (const auto* gradient = model.discrete_gradient()) {
       gradient->mean_force(0, 0.05 * q_, 1, 0.1 * q_, v_, f);
       keep(f);

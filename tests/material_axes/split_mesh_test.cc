@@ -57,7 +57,7 @@ class AxesOfASplitMesh : public testing::Test {
           << t;
   }
 
-  Mesh mesh_ = read_vtu_text("cubes.vtu", kVtu).mesh;
+  Mesh mesh_ = read_vtu_text("cubes.vtu", kVtu, FileCells::split).mesh;
   std::shared_ptr<const AxesSource> source_;
   Warnings notes_;
 };
@@ -83,12 +83,13 @@ TEST_F(AxesOfASplitMesh, AreRefusedWhereRowsAreNotOfTheFilesElements) {
 TEST_F(AxesOfASplitMesh, MayBeCellDataOfTheHexahedra) { expect_those_of_cells(field(write(".vtu", kVtu))); }
 
 TEST_F(AxesOfASplitMesh, MayBeCellDataOfTheTetrahedra) {
-  expect_those_of_cells(field(write(".vtu", write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text)));
+  expect_those_of_cells(
+      field(write(".vtu", write_vtu(read_vtu_text("cubes.vtu", kVtu, FileCells::split)).files.front().text)));
 }
 
 // Axes of the hexahedra, of their tetrahedra in another file, and in CSV rows; axis 1 of the second cube is along y.
 TEST_F(AxesOfASplitMesh, StayWhereTheMeshIsRefined) {
-  const std::string of_tets = write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text;
+  const std::string of_tets = write_vtu(read_vtu_text("cubes.vtu", kVtu, FileCells::split)).files.front().text;
   LoadedMesh loaded{.mesh = mesh_};
   for (int level = 0; level < 2; ++level) {
     refine(loaded);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lib/core/spelling.h"
+#include "lib/mesh/cell_volume.h"
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/vega.h"
@@ -244,16 +245,25 @@ double area_in_plane(const Mesh& mesh, const std::string& surface, Eigen::Index 
 
 class InAnyFormat : public testing::TestWithParam<Format> {
  protected:
-  static LoadedMesh load() { return GetParam().read("cells", *GetParam().text, FileCells::keep_quadratic); }
+  static LoadedMesh load() { return GetParam().read("cells", *GetParam().text, FileCells::split); }
 };
 
-TEST_P(InAnyFormat, TheMeshIsTheSame) {
+TEST_P(InAnyFormat, LinearCellsStayAsTheyAre) {
+  const LoadedMesh loaded = GetParam().read("cells", *GetParam().text, FileCells::keep);
+  EXPECT_EQ(loaded.mesh.cells.shapes(), (std::vector{CellShape::hex8, CellShape::wedge6, CellShape::wedge6}));
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) sum += cell_volume(loaded.mesh, c);
+  EXPECT_NEAR(sum, 2, 1e-15);
+  EXPECT_TRUE(loaded.mesh.cell_of.empty());
+}
+
+TEST_P(InAnyFormat, SplitMeshesAreTheSame) {
   const LoadedMesh loaded = load();
   EXPECT_NEAR(volume(loaded.mesh), 2, 1e-15);
   EXPECT_EQ(boundary_faces(loaded.mesh).size(), 20u);
   EXPECT_EQ(loaded.mesh.cell_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2}));
   EXPECT_EQ(loaded.mesh.region_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_gmsh_text("cells", kGmsh22).mesh));
+  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_gmsh_text("cells", kGmsh22, FileCells::split).mesh));
   EXPECT_EQ(loaded.warnings.back(), "cells: 1 hexahedron and 2 wedges are split into 12 tetrahedra");
 }
 
@@ -281,8 +291,8 @@ TEST(Hexahedra, NamesOfRegionsStay) {
   EXPECT_EQ(read_abaqus_text("cells", kAbaqus).mesh.region_names, (std::vector<std::string>{"left", "right"}));
 }
 
-TEST(Hexahedra, CubesOfVegaAreSplit) {
-  const LoadedMesh loaded = read_vega_text("cells.veg", kVega);
+TEST(Hexahedra, CubesOfVegaCanBeSplit) {
+  const LoadedMesh loaded = read_vega_text("cells.veg", kVega, FileCells::split);
   EXPECT_NEAR(volume(loaded.mesh), 2, 1e-15);
   EXPECT_EQ(loaded.warnings, Warnings{"cells.veg: 2 hexahedra are split into 12 tetrahedra"});
   EXPECT_CONTAINS(refusal_of([&] { read_vega_text("cells.veg", replaced(kVega, "2 8\n", "2 4\n")); }),
@@ -301,7 +311,8 @@ TEST(Hexahedra, VoxelsCountTheirNodesRowByRow) {
 }
 
 TEST(Hexahedra, EveryTetHasTheCellDataOfItsElement) {
-  for (const LoadedMesh& loaded : {read_vtk_text("cells", kVtk), read_vtu_text("cells", kVtu)}) {
+  for (const LoadedMesh& loaded :
+       {read_vtk_text("cells", kVtk, FileCells::split), read_vtu_text("cells", kVtu, FileCells::split)}) {
     const CellData* angle = find_cell_data(loaded, "angle");
     ASSERT_TRUE(angle);
     EXPECT_EQ(angle->values, (std::vector<double>{10, 11, 10, 11, 10, 11, 10, 11, 10, 11, 10, 11,
@@ -329,14 +340,16 @@ TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
       replaced(replaced(kAbaqus, "C3D6", "C3D8"), "6, 2, 9, 10, 6, 11, 12\n7, 2, 10, 3, 6, 12, 7",
                "6, 2, 9, 10, 10, 6, 11, 12, 12\n7, 2, 10, 3, 3, 6, 12, 7, 7");
   const LoadedMesh loaded = read_abaqus_text("cells", replaced(collapsed, "right, S2\n", "6, S2\n7, S2\n"));
-  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_abaqus_text("cells", kAbaqus).mesh));
+  EXPECT_EQ(sets_of(loaded.mesh), sets_of(read_abaqus_text("cells", kAbaqus, FileCells::split).mesh));
   EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 4u);
 }
 
 // Some elements of the file are inverted, others are not.
 TEST(Hexahedra, InvertedOnesAreTurnedAndTold) {
   const auto expect_turned = [](const LoadedMesh& loaded, const std::string& message) {
-    EXPECT_NEAR(volume(loaded.mesh), 2, 1e-14);
+    double sum = 0;
+    for (std::size_t c = 0; c < loaded.mesh.cells.size(); ++c) sum += cell_volume(loaded.mesh, c);
+    EXPECT_NEAR(sum, 2, 1e-14);
     EXPECT_CONTAINS(join(loaded.warnings), message + "; they were reoriented");
   };
   expect_turned(read_gmsh_text("a.msh", replaced(kGmsh22, "1 2 3 4 5 6 7 8\n", "5 6 7 8 1 2 3 4\n")),
@@ -349,10 +362,11 @@ TEST(Hexahedra, InvertedOnesAreTurnedAndTold) {
                 "a.vtk: 1 of 3 elements list their nodes in inverted order, the first is element 1");
 }
 
-// A corner is pushed through the hexahedron: only some of its tets are inverted, so reorienting cannot repair it.
+// A corner is pushed through the hexahedron: it is inverted in part, so reorienting cannot repair it.
 TEST(Hexahedra, OnesThatAreInvertedInPartAreRefusedWithTheirLine) {
-  EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "\n8, 0, 1, 1", "\n8, 2, -3, -2")); }),
-                  "inverted");
+  const std::string pushed = replaced(kAbaqus, "\n8, 0, 1, 1", "\n8, 2, -3, -2");
+  EXPECT_CONTAINS(refusal_of([&] { read_abaqus_text("a.inp", pushed); }), "a.inp:15: element 5: folded over");
+  EXPECT_CONTAINS(refusal_of([&] { read_abaqus_text("a.inp", pushed, FileCells::split); }), "inverted");
 }
 
 TEST(Hexahedra, AFaceThatAnElementDoesNotHaveIsRefused) {

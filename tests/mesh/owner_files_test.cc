@@ -16,7 +16,7 @@
 namespace orthodyn::owner_files_test {
 namespace {
 
-LoadedMesh load(const std::string& name, FileCells cells = FileCells::keep_quadratic) {
+LoadedMesh load(const std::string& name, FileCells cells = FileCells::keep) {
   return read_mesh(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name, cells);
 }
 

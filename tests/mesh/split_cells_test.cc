@@ -206,7 +206,7 @@ void expect_conforming(const Mesh& mesh, int n) {
 
 TEST(SplitCells, NeighboursMatchWhateverTheNumbersOfNodes) {
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const LoadedMesh loaded = build_mesh(Blocks(3, seed, false).take());
+    const LoadedMesh loaded = build_mesh(Blocks(3, seed, false).take(), FileCells::split);
     expect_conforming(loaded.mesh, 3);
     EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 18u);
     ASSERT_EQ(loaded.warnings.size(), 1u);
@@ -280,7 +280,7 @@ TEST(SplitCells, AMeshOfInvertedElementsIsTurned) {
   MeshDraft draft = Blocks(2, 5, false).take();
   for (FileCell& cell : draft.cells)
     for (std::size_t k = 0; k < 4; ++k) std::swap(cell.nodes[k], cell.nodes[k + 4]);
-  const LoadedMesh loaded = build_mesh(std::move(draft));
+  const LoadedMesh loaded = build_mesh(std::move(draft), FileCells::split);
   expect_conforming(loaded.mesh, 2);
   EXPECT_CONTAINS(loaded.warnings.at(0), "all 8 elements list their nodes in inverted order");
 }

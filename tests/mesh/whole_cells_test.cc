@@ -115,12 +115,12 @@ std::string two_cells(const std::string& second) {
 )" + second;
 }
 
-TEST(LinearHexahedra, StayOnlyIfTheMeshWillBeQuadratic) {
+TEST(LinearHexahedra, StayAsTheyAre) {
   const TemporaryFolder folder;
   folder.write("one.inp", two_cells(""));
   const std::string path = folder.path("one.inp");
-  EXPECT_TRUE(read_mesh(path).mesh.has_tets_only());
-  Mesh mesh = read_mesh(path, FileCells::keep).mesh;
+  EXPECT_TRUE(read_mesh(path, FileCells::split).mesh.has_tets_only());
+  Mesh mesh = read_mesh(path).mesh;
   ASSERT_EQ(mesh.cells.size(), 1u);
   EXPECT_EQ(mesh.cells.shape(0), CellShape::hex8);
   make_quadratic(mesh);

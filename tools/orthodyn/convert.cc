@@ -21,7 +21,7 @@ struct ConvertArguments {
 int convert(const ConvertArguments& arguments) {
   if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale: must be positive, found {}", arguments.scale));
   mesh_format_to_write(arguments.out);
-  LoadedMesh loaded = read_mesh(arguments.in, arguments.split ? FileCells::split : FileCells::keep_quadratic);
+  LoadedMesh loaded = read_mesh(arguments.in, arguments.split ? FileCells::split : FileCells::keep);
   if (arguments.scale != 1) scale_mesh(loaded.mesh, arguments.scale, arguments.in);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   for (const std::string& loss : write_mesh(loaded, arguments.out, arguments.force)) {
@@ -38,7 +38,7 @@ void declare(ConvertArguments& arguments, CommandOptions& options) {
       .type("OUT");
   options.value("--scale", arguments.scale, "Multiply coordinates by this factor, e.g. 0.001 for a mesh in mm.")
       .type("FACTOR");
-  options.flag("--split", arguments.split, "Make tetrahedra of quadratic hexahedra and wedges, too.");
+  options.flag("--split", arguments.split, "Make tetrahedra of hexahedra and wedges.");
   options.flag("--force", arguments.force, "Replace existing files.");
 }
 

@@ -97,8 +97,8 @@ class ElasticTermOf : public ElasticTerm {
     add_tangents(s, kind, K, D, [](int) { return NothingElse{}; });
   }
 
-  void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    add_mixed_tangents(before, s, K, [](int) { return NothingElse{}; });
+  void add_predicted_tangent(const NodalState& before, const NodalState& s, double* K) const override {
+    add_predicted_tangents(before, s, K, [](int) { return NothingElse{}; });
   }
 
   double energy(const NodalState& s) const override {
@@ -250,7 +250,7 @@ class ElasticTermOf : public ElasticTerm {
     void add_to_lane(double, bool, int, Blocks&) const {}
   };
 
-  // As add_tangent() and add_mixed_tangent(), with part_of(b) added for each batch.
+  // As add_tangent() and add_predicted_tangent(), with part_of(b) added for each batch.
   template <class PartOf>
   void add_tangents(const NodalState& s, TangentKind kind, double* K, double* D, PartOf&& part_of) const {
     double* const damping = damped() ? D : nullptr;
@@ -262,14 +262,14 @@ class ElasticTermOf : public ElasticTerm {
   }
 
   template <class PartOf>
-  void add_mixed_tangents(const NodalState& before, const NodalState& s, double* K, PartOf&& part_of) const {
-    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
+  void add_predicted_tangents(const NodalState& before, const NodalState& s, double* K, PartOf&& part_of) const {
+    if constexpr (requires(const Law& law, Mat3 H) { law.predicted_tangent(H, H, H); })
       loops_.for_each_batch([&](int b) {
         const auto part = part_of(b);
         loops_.for_each_of(b, [&](int k) {
           add_element(k, K, 1, part, [&](int p) {
-            Form form =
-                law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
+            Form form = law_.predicted_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u),
+                                               axes().of(k, p));
             part.add_to_lane(p, k % Batch::kLanes, form);
             return form;
           });

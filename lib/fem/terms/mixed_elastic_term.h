@@ -68,8 +68,8 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     });
   }
 
-  void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    this->add_mixed_tangents(before, s, K, [&](int b) {
+  void add_predicted_tangent(const NodalState& before, const NodalState& s, double* K) const override {
+    this->add_predicted_tangents(before, s, K, [&](int b) {
       return TangentPart(*this, b, volume_at(b, s.u), predicted_stress(b, before.u, s.u), TangentKind::exact);
     });
   }
@@ -196,7 +196,7 @@ class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
     return change_along(b, elements_.differences(b, s.v), volume);
   }
 
-  // The volumetric stress of the displacement u, linear in u - u0 (mixed_tangent() of corotational_law.h).
+  // The volumetric stress of the displacement u, linear in u - u0 (predicted_tangent() of corotational_law.h).
   Coefficients predicted_stress(int b, const NodalVector& u0, const NodalVector& u) const {
     Volume volume = volume_at(b, u0);
     const Columns d = elements_.differences(b, u) - elements_.differences(b, u0);

@@ -72,7 +72,7 @@ class PressedFaces {
 
   template <Face F>
   using List = std::vector<PressedFace<F>>;
-  std::tuple<List<Tri3>, List<Tri6>, List<Quad8>, List<Quad9>> lists_;
+  std::tuple<List<Tri3>, List<Tri6>, List<Quad4>, List<Quad8>, List<Quad9>> lists_;
 };
 
 // Nodal forces (N) at positions x (m) of all nodes.

@@ -25,11 +25,10 @@ namespace orthodyn {
 // Sets that contain themselves, other solid elements, keywords that generate nodes and unknown parameters
 // (abaqus_parameters.cc) are errors. Elements of other kinds and all other keywords are skipped with a warning. Throws
 // ConfigError "file:line: found, remedy", as read_gmsh() does.
-LoadedMesh read_abaqus(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_abaqus(const std::string& path, FileCells cells = FileCells::keep);
 
 // Reads from a text; `path` is for messages.
-LoadedMesh read_abaqus_text(const std::string& path, std::string_view text,
-                            FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_abaqus_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep);
 
 // Writes regions, node sets and surfaces as *ELSET, *NSET and *SURFACE; names in quotes if necessary.
 WrittenMesh write_abaqus(const LoadedMesh& loaded);

@@ -19,10 +19,10 @@ namespace orthodyn {
 // Throws ConfigError "file:line: found, remedy" unless the file is a complete, valid mesh of linear or quadratic solid
 // elements (see build_mesh() and validate()). Memory use is bounded by the file size, whatever counts the file
 // announces.
-LoadedMesh read_gmsh(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_gmsh(const std::string& path, FileCells cells = FileCells::keep);
 
 // Reads from a text or from bytes; messages for a binary file refer to lines of its ASCII form. `path` is for messages.
-LoadedMesh read_gmsh_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_gmsh_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep);
 
 // Write regions, surfaces and node sets as physical volumes, surfaces and points.
 WrittenMesh write_gmsh22(const LoadedMesh& loaded);

@@ -14,9 +14,9 @@ namespace orthodyn {
 // and Quadrilaterals with reference k != 0 form the surface "surface<k>", vertices the node set "vertices<k>". Other
 // solid elements and the binary form (.meshb) are errors; other sections are skipped with a warning. Throws ConfigError
 // "file:line: found, remedy", as read_gmsh() does.
-LoadedMesh read_medit(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_medit(const std::string& path, FileCells cells = FileCells::keep);
 
 // Reads from a text; `path` is for messages.
-LoadedMesh read_medit_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_medit_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep);
 
 }  // namespace orthodyn

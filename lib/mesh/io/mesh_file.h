@@ -8,7 +8,7 @@
 namespace orthodyn {
 
 // All names in the result are UTF-8. Throws ConfigError.
-LoadedMesh read_mesh(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_mesh(const std::string& path, FileCells cells = FileCells::keep);
 
 // Converts names of regions, sets, materials and cell data that are not UTF-8 from Latin-1, with a warning.
 void make_names_utf8(LoadedMesh& loaded, const std::string& path);

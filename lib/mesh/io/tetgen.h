@@ -14,7 +14,7 @@ namespace orthodyn {
 // "region<attribute>", or "body" without attributes. Triangles with marker k != 0 form the surface "marker<k>", nodes
 // the node set "marker<k>". Numbers start at 0 or 1. Throws ConfigError "file:line: found, remedy", as read_gmsh()
 // does.
-LoadedMesh read_tetgen(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_tetgen(const std::string& path, FileCells cells = FileCells::keep);
 
 struct TetgenTexts {
   std::string_view node, ele, face;  // `face` may be empty

@@ -20,10 +20,10 @@ namespace orthodyn {
 //
 // *INCLUDE paths are relative to the including file. Vertices and elements are numbered from 0 or 1 without gaps.
 // Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
-LoadedMesh read_vega(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_vega(const std::string& path, FileCells cells = FileCells::keep);
 
 // Reads from a text; `path` is for messages and includes.
-LoadedMesh read_vega_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_vega_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep);
 
 // A .bou file, whose vertices become a node set. It counts vertices from 1, even if the mesh counts from 0.
 struct FixedVertices {
@@ -32,7 +32,7 @@ struct FixedVertices {
 };
 
 // As above, with the node set. Also throws ConfigError for a vertex that the mesh does not have.
-LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed, FileCells cells = FileCells::keep);
 
 // Writes regions as sets, materials, and the node set "fixed" as a .bou file.
 WrittenMesh write_vega(const LoadedMesh& loaded);

@@ -13,9 +13,9 @@ namespace orthodyn {
 
 // build_vtk_mesh() describes the result. Throws ConfigError "file:line: found, remedy". Memory use is bounded by the
 // file size, whatever counts the file announces.
-LoadedMesh read_vtk(const std::string& path, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_vtk(const std::string& path, FileCells cells = FileCells::keep);
 
 // Reads from a text; `path` is for messages.
-LoadedMesh read_vtk_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep_quadratic);
+LoadedMesh read_vtk_text(const std::string& path, std::string_view text, FileCells cells = FileCells::keep);
 
 }  // namespace orthodyn

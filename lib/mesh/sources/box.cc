@@ -20,15 +20,37 @@ struct EnumNames<BoxMesh::Split> {
       {{BoxMesh::Split::five, "five"}, {BoxMesh::Split::six, "six"}}};
 };
 
+namespace {
+
+// The last two have nodes in the middle of quadrilaterals and hexahedra.
+enum class BoxElements { tetrahedra, wedges, hexahedra, wedges_18, hexahedra_27 };
+
+}  // namespace
+
 template <>
-struct EnumNames<BoxMesh::Elements> {
-  static constexpr std::array<std::pair<BoxMesh::Elements, const char*>, 3> list{
-      {{BoxMesh::Elements::tetrahedra, "tetrahedra"},
-       {BoxMesh::Elements::wedges, "wedges"},
-       {BoxMesh::Elements::hexahedra, "hexahedra"}}};
+struct EnumNames<BoxElements> {
+  static constexpr std::array<std::pair<BoxElements, const char*>, 5> list{
+      {{BoxElements::tetrahedra, "tetrahedra"},
+       {BoxElements::wedges, "wedges"},
+       {BoxElements::hexahedra, "hexahedra"},
+       {BoxElements::wedges_18, "wedges_18"},
+       {BoxElements::hexahedra_27, "hexahedra_27"}}};
 };
 
 namespace {
+
+bool has_centres(BoxElements elements) {
+  return elements == BoxElements::wedges_18 || elements == BoxElements::hexahedra_27;
+}
+
+BoxMesh::Elements cells_of(BoxElements elements) {
+  switch (elements) {
+    case BoxElements::tetrahedra: return BoxMesh::Elements::tetrahedra;
+    case BoxElements::wedges:
+    case BoxElements::wedges_18: return BoxMesh::Elements::wedges;
+    default: return BoxMesh::Elements::hexahedra;
+  }
+}
 
 // Makes a region of the elements with their centroid in `part`; takes them from earlier parts.
 void add_region(Mesh& mesh, const std::string& name, const BoxSelection& part) {
@@ -58,9 +80,13 @@ class BoxSource : public MeshSource, public BoxMesh {
                  "Default: all equal.",
                  {.range = kPositive})
             .key("elements", &BoxSource::elements_,
-                 "tetrahedra; hexahedra: one element of 20 nodes per cell, for plates and other thin bodies; wedges: "
-                 "two of 15 nodes per cell, with triangles in planes of constant z. Default: hexahedra for cells more "
-                 "than four times wider than thick, unless `order: 1` or `split` is given; otherwise tetrahedra.")
+                 "tetrahedra; hexahedra: one of 20 nodes per cell, for plates and other thin bodies; wedges: two of 15 "
+                 "nodes per "
+                 "cell, with triangles in planes of constant z (8 and 6 nodes with `order: 1`). hexahedra_27, "
+                 "wedges_18: "
+                 "with nodes in the middle of quadrilaterals and cells, for nearly incompressible materials. Default: "
+                 "hexahedra for cells more than four times wider than thick, unless `order: 1` or `split` is given; "
+                 "otherwise tetrahedra.")
             .key("split", &BoxSource::split_,
                  "Tets per cell: five (mirror symmetric for even cell counts) or six (all cells alike). Default: six "
                  "for quadratic tetrahedra in cells more than three times wider than thick, where five are far too "
@@ -72,15 +98,14 @@ class BoxSource : public MeshSource, public BoxMesh {
               if (!box.layers.empty() && box.layers.size() != static_cast<std::size_t>(box.cells[2]))
                 config.at("layers").fail(
                     fmt::format("has {} heights, but there are {} cells along z", box.layers.size(), box.cells[2]));
-              const Elements elements = box.chosen_elements();
-              if (!box.elements_) config.fill("elements", Value<Elements>::yaml(elements));
-              if (elements != Elements::tetrahedra) {
-                if (box.order == 1)
-                  config.at("order").fail(
-                      "linear hexahedra and wedges cannot be computed; leave out `order`, or use tetrahedra");
+              const BoxElements elements = box.chosen_elements();
+              if (!box.elements_) config.fill("elements", Value<BoxElements>::yaml(elements));
+              if (has_centres(elements) && box.order == 1)
+                config.at("order").fail("linear elements have 6 or 8 nodes; remove it, or the number in `elements`");
+              if (elements != BoxElements::tetrahedra) {
                 if (box.split_) config.at("split").fail("divides cells into tetrahedra; remove it, or `elements`");
                 return check_mesh_size(
-                    (elements == Elements::wedges ? 2.0 : 1.0) * box.cells[0] * box.cells[1] * box.cells[2],
+                    (cells_of(elements) == Elements::wedges ? 2.0 : 1.0) * box.cells[0] * box.cells[1] * box.cells[2],
                     config.at("cells"));
               }
               if (!box.split_) config.fill("split", Value<Split>::yaml(box.chosen_split()));
@@ -91,20 +116,21 @@ class BoxSource : public MeshSource, public BoxMesh {
   }
   LoadedMesh load() const override {
     BoxMesh box = *this;
-    box.elements = chosen_elements();
+    box.elements = cells_of(chosen_elements());
     box.split = chosen_split();
     Mesh mesh = make_box(box);
     for (const auto& [name, part] : parts_) add_region(mesh, name, part);
     set_order(mesh, order);
+    if (has_centres(chosen_elements())) add_centres(mesh);
     return {std::move(mesh), {}};
   }
 
   int order = kDefaultOrder;
 
  private:
-  Elements chosen_elements() const {
+  BoxElements chosen_elements() const {
     const bool is_plate = order == 2 && !split_ && flatness() > kPlate;
-    return elements_.value_or(is_plate ? Elements::hexahedra : Elements::tetrahedra);
+    return elements_.value_or(is_plate ? BoxElements::hexahedra : BoxElements::tetrahedra);
   }
   Split chosen_split() const { return split_.value_or(order == 2 && flatness() > kFlat ? Split::six : Split::five); }
   // Smaller width of the cells over their thickness, of the thinnest cells.
@@ -119,7 +145,7 @@ class BoxSource : public MeshSource, public BoxMesh {
   }
 
   static constexpr double kFlat = 3, kPlate = 4;
-  std::optional<Elements> elements_;
+  std::optional<BoxElements> elements_;
   std::optional<Split> split_;
   Named<BoxSelection> parts_;
 };

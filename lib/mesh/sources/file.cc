@@ -27,9 +27,8 @@ namespace {
 constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every element into eight.";
 const Rule kRefineRule{.range = {0, 6}};
 constexpr const char* kSplitSentence =
-    "true: hexahedra and wedges become tetrahedra. false: quadratic ones stay as they are, with `order: 2` linear "
-    "ones, "
-    "too. Pyramids, and elements with repeated nodes, are always split, and with them all elements.";
+    "true: hexahedra and wedges become tetrahedra. Pyramids, and elements with repeated nodes, are always split, and "
+    "with them all elements.";
 constexpr const char* kScale = "Factor of all coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
@@ -44,10 +43,7 @@ struct FileOptions {
   bool split = false;
   int refinements = 0;
 
-  // Linear hexahedra and wedges become quadratic with `order: 2`, and tetrahedra otherwise.
-  FileCells cells() const {
-    return split || order == 1 ? FileCells::split : order == 2 ? FileCells::keep : FileCells::keep_quadratic;
-  }
+  FileCells cells() const { return split ? FileCells::split : FileCells::keep; }
 
   LoadedMesh apply_options(LoadedMesh loaded) const {
     scale_mesh(loaded.mesh, scale, file.path);

@@ -9,9 +9,9 @@
 namespace orthodyn {
 
 inline constexpr const char* kOrderSentence =
-    "2: quadratic tetrahedra, with mid-edge nodes. 1: linear ones, too stiff in bending and torsion.";
+    "2: quadratic elements, with mid-edge nodes. 1: linear ones, too stiff in bending and torsion.";
 inline constexpr const char* kFileOrderSentence =
-    "2: quadratic elements, with mid-edge nodes. 1: linear tetrahedra, too stiff in bending and torsion. Default: the "
+    "2: quadratic elements, with mid-edge nodes. 1: linear ones, too stiff in bending and torsion. Default: the "
     "order of the file.";
 inline constexpr int kDefaultOrder = 2;  // of generated meshes
 inline const Rule kOrderRule{.range = {1, 2}};

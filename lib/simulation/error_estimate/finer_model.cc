@@ -70,13 +70,18 @@ Vector shape_at_middle(std::span<const int> parent, std::span<const int> child, 
   return parent.size() == 4 ? Vector(L) : Vector(Tet10::shape(L));
 }
 
-// The shape functions of a hexahedron or wedge at a node of a child: the mean of these corners of the child.
-Vector shape_in_child(CellShape shape, const std::vector<Vec3>& child, const std::vector<int>& corners) {
-  Vec3 place = Vec3::Zero();
-  for (const int k : corners) place += child[static_cast<std::size_t>(k)] / static_cast<double>(corners.size());
+// The shape functions of a hexahedron or wedge at the mean of these corners of its child; a linear one has itself as
+// its only child.
+Vector shape_in_child(CellShape shape, std::size_t child, const std::vector<int>& corners) {
   Vector out;
   with_element(shape, [&]<class E>() {
-    if constexpr (E::kNodes > 10) out = E::shape(place);
+    if constexpr (HasIntegrationRules<E>) {
+      Vec3 place = Vec3::Zero();
+      for (const int k : corners)
+        place +=
+            E::kDegree == 1 ? Vec3(E::nodes().col(k)) : corners_of_children(shape)[child][static_cast<std::size_t>(k)];
+      out = E::shape(place / static_cast<double>(corners.size()));
+    }
   });
   return out;
 }
@@ -130,8 +135,7 @@ FinerModel::Rows FinerModel::nodal_lift(const Mesh& fine) const {
       if (std::exchange(known[static_cast<std::size_t>(node)], 1)) continue;
       const std::vector<int> corners =
           a < cell.corners ? std::vector{a} : cell.middles[static_cast<std::size_t>(a - cell.corners)];
-      const Vector N = is_tet ? shape_at_middle(parent, child, corners)
-                              : shape_in_child(shape, corners_of_children(shape)[k % children], corners);
+      const Vector N = is_tet ? shape_at_middle(parent, child, corners) : shape_in_child(shape, k % children, corners);
       for (std::size_t b = 0; b < parent.size(); ++b)
         if (const double value = N[static_cast<Eigen::Index>(b)]; value != 0)
           entries.emplace_back(node, parent[b], value);

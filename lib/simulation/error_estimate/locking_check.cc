@@ -7,6 +7,7 @@
 
 #include "lib/fem/element_mesh.h"
 #include "lib/material/stiffness_contrast.h"
+#include "lib/mesh/cell_volume.h"
 
 namespace orthodyn {
 
@@ -19,26 +20,27 @@ constexpr double kBends = 0.3;  // share of the squared strains that varies with
 double stiff_volume(int order) { return order == 1 ? 30 : 300; }
 double stiff_direction(int order) { return order == 1 ? 1000 : 5000; }
 
-double volume_of_corners(const Mesh& mesh, std::size_t tet) {
-  const auto nodes = mesh.cells[tet];
-  return std::abs(signed_volume6(mesh, {nodes[0], nodes[1], nodes[2], nodes[3]})) / 6;
-}
-
-// Longest edge over smallest height of a tetrahedron.
-double flatness(const Mesh& mesh, std::size_t tet) {
-  const auto at = [&](std::size_t k) -> const Vec3& { return mesh.node(mesh.cells[tet][k]); };
-  double longest = 0, largest = 0;  // longest edge, twice the largest face area
-  for (const auto& [i, j] : kTetEdges) longest = std::max(longest, (at(i) - at(j)).norm());
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
-    largest = std::max(largest, (at(b) - at(a)).cross(at(c) - at(a)).norm());
+// Longest edge over smallest height of a cell with straight edges.
+double flatness(const Mesh& mesh, std::size_t cell) {
+  const CellTopology& shape = topology(mesh.cells.shape(cell));
+  double longest = 0, largest = 0;  // edge, face area
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    const auto corners = static_cast<std::size_t>(shape.corners_of_face(f));
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return mesh.node(mesh.cells[cell][static_cast<std::size_t>(shape.faces[f][k % corners])]);
+    };
+    for (std::size_t k = 0; k < corners; ++k) longest = std::max(longest, (at(k + 1) - at(k)).norm());
+    largest = std::max(largest, (at(2) - at(0)).cross(at(corners - 1) - at(1)).norm() / 2);
   }
-  return longest * largest / (6 * volume_of_corners(mesh, tet));
+  return longest * largest / ((shape.corners == 4 ? 3 : 1) * std::abs(cell_volume(mesh, cell)));
 }
 
-// Of the tetrahedra; other elements do not lock if they are flat.
+// Quadratic hexahedra and wedges do not lock if they are flat.
+bool may_lock(const CellTopology& shape) { return shape.corners == 4 || shape.order == 1; }
+
+// Of the elements that may lock.
 struct Bending {
-  double share = 0;     // part of the squared strains that varies within cells; 0 for linear cells
+  double share = 0;     // part of the squared strains that varies within cells; 0 for linear tetrahedra
   double flatness = 0;  // mean, weighted by squared strains
 };
 
@@ -47,18 +49,18 @@ Bending bending(const FemModel& model, const State& state) {
   const NodalExpansion nodal(parts, state.t, state.q, Vector::Zero(state.q.size()));
   double all = 0, varying = 0, flat = 0;
   for (const auto& term : parts.elastic) {
-    if (term->size() == 0 || parts.mesh.cells.corners(static_cast<std::size_t>(term->cell(0))).size() != 4) continue;
+    if (term->size() == 0 || !may_lock(topology(term->type().shape()))) continue;
     const auto strains = term->strains(nodal.state());
     const Eigen::Index points = term->num_points();
     for (int k = 0; k < term->size(); ++k) {
       const auto own = strains.middleCols(points * k, points);
       const Vec6 mean = own.rowwise().mean();
-      const auto tet = static_cast<std::size_t>(term->cell(k));
-      const double volume = 6 * volume_of_corners(parts.mesh, tet);
+      const auto cell = static_cast<std::size_t>(term->cell(k));
+      const double volume = std::abs(cell_volume(parts.mesh, cell));
       const double square = volume * own.squaredNorm();
       all += square;
       varying += volume * (own.colwise() - mean).squaredNorm();
-      flat += square * flatness(parts.mesh, tet);
+      flat += square * flatness(parts.mesh, cell);
     }
   }
   if (!(all > 0)) return {};
@@ -70,10 +72,10 @@ std::string flat_cells(const FemModel& model, const State& state) {
   const int order = model.parts().mesh.order();
   if (!(flatness > kFlat) || (order == 2 && share < kBends)) return "";
   return fmt::format(
-      "cells are {:.0f} times as wide as thick{}: all {} tetrahedra are then too stiff (locking), and the true error "
-      "may be several times the estimate. Use narrower cells{}, or check with orthodyn converge",
-      flatness, order == 1 ? ", and where the body bends" : ", and the body bends", order == 1 ? "linear" : "quadratic",
-      order == 1 ? " or mesh.order: 2" : "");
+      "cells are {:.0f} times as wide as thick{}: {} are then too stiff (locking), and the true error may be several "
+      "times the estimate. Use narrower cells{}, or check with orthodyn converge",
+      flatness, order == 1 ? ", and where the body bends" : ", and the body bends",
+      order == 1 ? "linear elements" : "quadratic tetrahedra", order == 1 ? " or mesh.order: 2" : "");
 }
 
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
@@ -88,12 +90,12 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
         "region '{}' is {:.0f} times as stiff {} as in its softest shear: all {} are then too stiff "
         "(locking), and the true error may be {} the estimate. {}, or check with orthodyn converge",
         term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
-        order == 1 ? "linear tetrahedra" : topology(term->type().shape()).plural,
+        order == 1 ? "linear elements" : topology(term->type().shape()).plural,
         by_finer_elements ? "two or three times" : "many times",
-        order == 1                                           ? "Use mesh.order: 2"
-        : volumetric && term->type().has_mixed_formulation() ? "Use formulation: mixed in this region"
-        : volumetric ? "Use a smaller nu if this one is not intended, finer cells"
-                     : "Use finer cells");
+        volumetric && term->type().has_mixed_formulation() ? "Use formulation: mixed in this region"
+        : order == 1                                       ? "Use mesh.order: 2"
+        : volumetric                                       ? "Use a smaller nu if this one is not intended, finer cells"
+                                                           : "Use finer cells");
   }
   return "";
 }

@@ -1,5 +1,5 @@
-// Checks the number of linear tetrahedra through the thickness of a region: with one to three of them, bending is far
-// too stiff (docs/accuracy.md).
+// Checks the number of linear elements through the thickness of a region: with one to three of them, bending is far too
+// stiff (docs/accuracy.md).
 #pragma once
 
 #include <string>

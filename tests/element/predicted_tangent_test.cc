@@ -1,17 +1,18 @@
-// The mixed tangent of the corotational law: its geometric part uses a stress predicted from an earlier state F0.
+// The tangent with predicted stress of the corotational law: its geometric part uses a stress predicted from an earlier
+// state F0.
 #include <gtest/gtest.h>
 
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn::mixed_tangent_test {
+namespace orthodyn::predicted_tangent_test {
 namespace {
 
 const Mat3 kQ = Random(41).rotation();
 
 template <class C>
 Mat9 mixed(const C& stiffness, const Mat3& F0, const Mat3& F) {
-  return in_space(CorotationalLaw<C>(stiffness).mixed_tangent(F0 - kQ, F - kQ, kQ));
+  return in_space(CorotationalLaw<C>(stiffness).predicted_tangent(F0 - kQ, F - kQ, kQ));
 }
 
 template <class C>
@@ -19,7 +20,7 @@ Mat9 tangent(const C& stiffness, const Mat3& F, TangentKind kind) {
   return in_space(CorotationalLaw<C>(stiffness).tangent(F - kQ, kQ, kind, 0, nullptr));
 }
 
-TEST(MixedTangent, IsTheExactOneWhereNothingHasMoved) {
+TEST(PredictedTangent, IsTheExactOneWhereNothingHasMoved) {
   Random random(42);
   for (int sample = 0; sample < 10; ++sample) {
     const Mat3 F = random_strain(random, 0.3).F();
@@ -28,9 +29,9 @@ TEST(MixedTangent, IsTheExactOneWhereNothingHasMoved) {
   }
 }
 
-// The mixed tangent minus its Gauss-Newton part is the second derivative of sigma : S(F) by F, for the fixed stress
-// sigma = C (S0 - I + dS0) with S0 = S(F0) and dS0 its derivative in the direction F - F0. The first derivative is
-// R (sigma + [c]) with the cross matrix [c].
+// The tangent with predicted stress minus its Gauss-Newton part is the second derivative of sigma : S(F) by F, for the
+// fixed stress sigma = C (S0 - I + dS0) with S0 = S(F0) and dS0 its derivative in the direction F - F0. The first
+// derivative is R (sigma + [c]) with the cross matrix [c].
 template <class C>
 void expect_second_derivative(const C& stiffness) {
   Random random(43);
@@ -55,17 +56,17 @@ void expect_second_derivative(const C& stiffness) {
   }
 }
 
-TEST(MixedTangent, HoldsTheStressThatTheTangentBeforePredicts) {
+TEST(PredictedTangent, HoldsTheStressThatTheTangentBeforePredicts) {
   expect_second_derivative(fibre(10));
   expect_second_derivative(kIsotropic);
   expect_second_derivative(turned(fibre(10), Random(44).rotation()));
 }
 
-TEST(MixedTangent, IsTheExactOneWhereAnEndIsBlended) {
+TEST(PredictedTangent, IsTheExactOneWhereAnEndIsBlended) {
   const Mat3 inverted = Random(45).rotation() * Vec3(1.1, 0.8, -0.7).asDiagonal(), F = 1.1 * kQ;
   const Mat9 exact = tangent(fibre(10), F, TangentKind::exact);
   EXPECT_EQ((mixed(fibre(10), inverted, F) - exact).norm(), 0);
 }
 
 }  // namespace
-}  // namespace orthodyn::mixed_tangent_test
+}  // namespace orthodyn::predicted_tangent_test

@@ -1,14 +1,15 @@
-// lib/fem with elements of another shape, with more nodes and points than the tetrahedron: no code depends on the
-// element types.
+// lib/fem with hexahedra of 8 and of 20 nodes.
 #include <gtest/gtest.h>
 
-#include "lib/fem/element_type_of.h"
+#include "lib/element/corotational_law.h"
+#include "lib/element/hex8.h"
+#include "lib/fem/element_type.h"
 #include "lib/fem/mass.h"
+#include "lib/fem/terms/elastic_term.h"
 #include "lib/mesh/quadratic.h"
 #include "tests/element/states.h"
-#include "tests/fem/hex8.h"
 
-namespace orthodyn::second_element_test {
+namespace orthodyn::hexahedra_test {
 namespace {
 
 constexpr double kDensity = 3, kBeta = 0.2;
@@ -20,7 +21,7 @@ Mesh two_bricks() {
   const Mat3 shear = (Mat3() << 1, 0.3, 0, 0, 1, 0.2, 0, 0, 1).finished();
   for (int layer = 0; layer < 3; ++layer)
     for (int a = 0; a < 4; ++a) {
-      const Vec3 corner = (Vec3::Ones() + Hex8::corner(a)) / 2;
+      const Vec3 corner = (Vec3::Ones() + Hex8::nodes().col(a)) / 2;
       mesh.nodes.push_back(shear * kSize.cwiseProduct(Vec3(corner[0], corner[1], 0.5 * layer)));
     }
   mesh.cells = Cells(CellShape::hex8, std::vector{0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11});
@@ -31,7 +32,7 @@ Eigen::MatrixXd full(const BlockPattern& pattern, const std::vector<double>& val
   return Eigen::MatrixXd(Eigen::MatrixXd(pattern.pattern().matrix(values.data())).selfadjointView<Eigen::Lower>());
 }
 
-// Free bricks of 8 nodes, of which the library has no element.
+// Free bricks of 8 nodes.
 class Bricks : public testing::Test {
  protected:
   Bricks() {
@@ -53,7 +54,7 @@ class Bricks : public testing::Test {
   Placed at(const NodalVector& positions, const NodalVector& velocities) const {
     return {positions, positions - rest, velocities};
   }
-  Eigen::MatrixXd full(const std::vector<double>& values) const { return second_element_test::full(pattern, values); }
+  Eigen::MatrixXd full(const std::vector<double>& values) const { return hexahedra_test::full(pattern, values); }
   // The sum of the elements' matrices.
   Eigen::MatrixXd mass_matrix(MassKind kind) const {
     Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * kNumNodes, 3 * kNumNodes);
@@ -71,7 +72,7 @@ class Bricks : public testing::Test {
   }
 
   static constexpr int kNumNodes = 12;
-  ElementTypeOf<Hex8> type;
+  const ElementType& type = linear_hexahedron();
   Mesh bricks = two_bricks();
   ElementMesh mesh{bricks};
   DofMap dofs{kNumNodes, std::vector<bool>(3 * kNumNodes, false)};
@@ -197,4 +198,4 @@ TEST_F(Bricks, AreBoundedInFrequency) {
 }
 
 }  // namespace
-}  // namespace orthodyn::second_element_test
+}  // namespace orthodyn::hexahedra_test
