@@ -42,9 +42,9 @@ void check_cells(const RoundCells& cells, bool full) {
           fmt::format("grading {}; it must lie in [0.01, 100]", cells.grading));
   const double core = full ? cells.around / 4.0 : 0;
   const double plane = double(cells.around) * cells.through + core * core;
-  require(
-      6 * plane * cells.along < std::numeric_limits<int>::max(),
-      fmt::format("{:.3g} tets; at most {} can be numbered", 6 * plane * cells.along, std::numeric_limits<int>::max()));
+  require(6 * plane * cells.along < std::numeric_limits<int>::max(),
+          fmt::format("{:.3g} elements; at most {} can be numbered", 6 * plane * cells.along,
+                      std::numeric_limits<int>::max()));
 }
 
 // Boundaries of the rings, from 0 (inside) to 1 (outer circle). Thicknesses in geometric progression.
@@ -73,9 +73,13 @@ double triangle_quality(const Point& o, const Point& a, const Point& b) {
   return cross(o, a, b) / (longest * longest);
 }
 
-// Adds the two triangles of the quadrilateral a b c d (counter-clockwise), cut along its better diagonal; `even` breaks
-// ties.
-void append_quad(PlaneMesh& plane, int a, int b, int c, int d, bool even) {
+// Adds the quadrilateral a b c d (counter-clockwise), for tetrahedra as two triangles, cut along its better diagonal;
+// `even` breaks ties.
+void append_quad(PlaneMesh& plane, RoundMesh::Elements elements, int a, int b, int c, int d, bool even) {
+  if (elements == RoundMesh::Elements::hexahedra) {
+    plane.quadrilaterals.push_back({a, b, c, d});
+    return;
+  }
   const auto quality = [&](int i, int j, int k) {
     const auto at = [&](int n) { return plane.nodes[static_cast<std::size_t>(n)]; };
     return triangle_quality(at(i), at(j), at(k));
@@ -131,8 +135,9 @@ struct RoundPlane {
 };
 
 // Adds rings of quadrilaterals from the loop of nodes `inside` (counter-clockwise) outward to the circle.
-void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& cells) {
+void append_rings(RoundPlane& round, std::vector<int> inside, const RoundMesh& body) {
   PlaneMesh& plane = round.mesh;
+  const RoundCells& cells = body.cells;
   const int count = cells.around;
   const std::vector<double> ways = ring_boundaries(cells);
   for (int k = 0; k < count; ++k) round.places[inside[static_cast<std::size_t>(k)]] = {double(k), 0};
@@ -146,7 +151,7 @@ void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& 
     }
     for (int k = 0; k < count; ++k) {
       const auto here = static_cast<std::size_t>(k), next = static_cast<std::size_t>((k + 1) % count);
-      append_quad(plane, inside[here], outside[here], outside[next], inside[next], (k + ring) % 2 == 0);
+      append_quad(plane, body.elements, inside[here], outside[here], outside[next], inside[next], (k + ring) % 2 == 0);
     }
     inside = std::move(outside);
   }
@@ -154,7 +159,7 @@ void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& 
 }
 
 // A square grid deformed halfway to a disc, which avoids sharp angles at the corners of grid and rings.
-PlaneMesh make_core(int n, double corner_radius) {
+PlaneMesh make_core(int n, double corner_radius, RoundMesh::Elements elements) {
   PlaneMesh plane;
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
@@ -167,7 +172,7 @@ PlaneMesh make_core(int n, double corner_radius) {
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const int a = i + (n + 1) * j;
-      append_quad(plane, a, a + 1, a + n + 2, a + n + 1, (i + j) % 2 == 0);
+      append_quad(plane, elements, a, a + 1, a + n + 2, a + n + 1, (i + j) % 2 == 0);
     }
   }
   return plane;
@@ -237,7 +242,7 @@ Mesh make_cylinder(const CylinderMesh& cylinder) {
   check_size(cylinder.length, "length");
   check_cells(cylinder.cells, true);
   const int n = cylinder.cells.around / 4;
-  RoundPlane plane{.mesh = make_core(n, kCore * cylinder.radius)};
+  RoundPlane plane{.mesh = make_core(n, kCore * cylinder.radius, cylinder.elements)};
   const auto outline = outline_of_core(n);
   std::vector<Point> loop;
   for (const int node : outline) loop.push_back(plane.mesh.nodes[static_cast<std::size_t>(node)]);
@@ -250,7 +255,7 @@ Mesh make_cylinder(const CylinderMesh& cylinder) {
   };
   // The first angle points to the corner with the lowest coordinates.
   plane.rings = {straight, cylinder.radius, -0.75 * std::numbers::pi, cylinder.cells.around};
-  append_rings(plane, outline, cylinder.cells);
+  append_rings(plane, outline, cylinder);
   return finish(plane, cylinder);
 }
 
@@ -272,7 +277,7 @@ Mesh make_tube(const TubeMesh& tube) {
     plane.inner.push_back(k);
     plane.mesh.nodes.push_back(circle(k));
   }
-  append_rings(plane, plane.inner, tube.cells);
+  append_rings(plane, plane.inner, tube);
   return finish(plane, tube);
 }
 

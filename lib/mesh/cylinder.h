@@ -1,4 +1,4 @@
-// A full cylinder and a tube of tetrahedra, in graded rings around an axis.
+// A full cylinder and a tube of tetrahedra or hexahedra, in graded rings around an axis.
 #pragma once
 
 #include "lib/core/types.h"
@@ -14,10 +14,13 @@ struct RoundCells {
 };
 
 struct RoundMesh {
+  enum class Elements { tetrahedra, hexahedra };
+
   double radius = 1, length = 1;  // m
   Vec3 origin = Vec3::Zero();     // centre of end0, m
   Vec3 axis{0, 0, 1};             // from end0 to end1, of any length
   RoundCells cells = {};
+  Elements elements = Elements::tetrahedra;
   int order = 1;  // 2: quadratic, with curved edges
 };
 
@@ -33,7 +36,7 @@ struct TubeMesh : RoundMesh {
 // on the surface form a regular polygon on the circle. At order 2, mid-edge nodes lie on the true surfaces and, inside,
 // follow the rings. Throw ConfigError (without place) for sizes that are not positive and finite, counts below 1,
 // `around` below 3 or, for the cylinder, not a multiple of 4, a grading outside [0.01, 100], a zero axis, and more
-// nodes or tets than an int can count.
+// nodes or elements than an int can count.
 Mesh make_cylinder(const CylinderMesh& cylinder);
 Mesh make_tube(const TubeMesh& tube);
 

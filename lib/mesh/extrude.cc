@@ -8,9 +8,9 @@ namespace orthodyn {
 Mesh extrude(const PlaneMesh& plane, double length, int layers) {
   const int per_layer = static_cast<int>(plane.nodes.size());
   Mesh mesh;
-  std::vector<Tet> tets;
   for (int layer = 0; layer <= layers; ++layer)
     for (const auto& [x, y] : plane.nodes) mesh.nodes.push_back({x, y, length * layer / layers});
+  std::vector<Tet> tets;
   for (int layer = 0; layer < layers; ++layer) {
     const bool mirrored = layer % 2 == 1;
     const int bottom = (mirrored ? layer + 1 : layer) * per_layer;
@@ -26,7 +26,13 @@ Mesh extrude(const PlaneMesh& plane, double length, int layers) {
     }
   }
   mesh.cells = Cells(tets);
-  mesh.region_of.assign(tets.size(), 0);
+  for (int layer = 0; layer < layers; ++layer)
+    for (const auto& [a, b, c, d] : plane.quadrilaterals) {
+      const int bottom = layer * per_layer, top = bottom + per_layer;
+      mesh.cells.add(CellShape::hex8,
+                     std::array{bottom + a, bottom + b, bottom + c, bottom + d, top + a, top + b, top + c, top + d});
+    }
+  mesh.region_of.assign(mesh.cells.size(), 0);
   mesh.region_names = {"body"};
   return mesh;
 }

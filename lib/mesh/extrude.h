@@ -1,4 +1,5 @@
-// Extrudes a plane mesh of triangles along z into layers of prisms, each split into three tets.
+// Extrudes a plane mesh along z into layers: triangles into wedges, each split into three tets, quadrilaterals into
+// hexahedra.
 #pragma once
 
 #include <array>
@@ -8,11 +9,14 @@
 
 namespace orthodyn {
 
-using Triangle = std::array<int, 3>;  // node indices
+using Triangle = std::array<int, 3>;       // node indices
+using Quadrilateral = std::array<int, 4>;  // node indices
 
+// A mesh of triangles or of quadrilaterals, counter-clockwise.
 struct PlaneMesh {
   std::vector<std::array<double, 2>> nodes;  // m
-  std::vector<Triangle> triangles;           // counter-clockwise
+  std::vector<Triangle> triangles = {};
+  std::vector<Quadrilateral> quadrilaterals = {};
 };
 
 // Nodes are numbered layer by layer. The diagonal of a side face starts at the node with the lower number in the plane,

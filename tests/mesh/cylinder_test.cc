@@ -29,7 +29,14 @@ double volume(const Mesh& mesh) {
 
 Vec3 area_vector(const Mesh& mesh, const FaceCorners& t) {
   const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
-  return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
+  return t.size() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) / 2 : (x(2) - x(0)).cross(x(3) - x(1)) / 2;
+}
+
+template <class Round>
+Round with_hexahedra(Round round, int order = 1) {
+  round.elements = RoundMesh::Elements::hexahedra;
+  round.order = order;
+  return round;
 }
 
 double area(const Mesh& mesh, const std::string& surface) {
@@ -83,6 +90,23 @@ TEST(Tube, HasExactlyTheVolumeAndAreasOfItsPolygons) {
   }
 }
 
+// Quadratic hexahedra have the true surfaces up to the error of an interpolated circle, of order 4.
+TEST(RoundHexahedra, HaveTheVolumeOfTheTrueBodyAtOrderTwo) {
+  const auto error = [](int around) {
+    return std::abs(volume(make_tube(with_hexahedra(tube_of(around), 2))) / (9 * kPi) - 1) +
+           std::abs(volume(make_cylinder(with_hexahedra(cylinder_of(around), 2))) / (12 * kPi) - 1);
+  };
+  EXPECT_LT(error(16), 1e-3);
+  const double order = std::log2(error(16) / error(32));
+  EXPECT_GT(order, 3.5);
+  EXPECT_LT(order, 4.5);
+}
+
+TEST(RoundHexahedra, HaveExactlyTheVolumeOfTheirPolygonAtOrderOne) {
+  EXPECT_NEAR(volume(make_cylinder(with_hexahedra(cylinder_of(16)))), 3 * polygon_area(16, 2), 1e-12);
+  EXPECT_NEAR(volume(make_tube(with_hexahedra(tube_of(10)))), 3 * (polygon_area(10, 2) - polygon_area(10, 1)), 1e-12);
+}
+
 TEST(Cylinder, ItsVolumeConvergesWithSecondOrder) {
   const auto error = [](int around) { return 12 * kPi - volume(make_cylinder(cylinder_of(around))); };
   const double order = std::log2(error(16) / error(32));
@@ -97,20 +121,24 @@ TEST_P(RoundMeshes, AreValid) {
   EXPECT_TRUE(validate(mesh, {"generator"}).empty());
 }
 
-// Every boundary triangle is in exactly one surface, and the area vectors of a closed surface add to 0.
+// Every boundary face is in exactly one surface, and the area vectors of a closed surface add to 0.
 TEST_P(RoundMeshes, AreWatertight) {
   const Mesh& mesh = GetParam().second;
   std::size_t count = 0;
   Vec3 sum = Vec3::Zero();
-  for (const auto& [name, triangles] : mesh.surfaces) {
-    count += triangles.size();
-    for (const FaceCorners& t : triangles) sum += area_vector(mesh, t);
+  for (const auto& [name, faces] : mesh.surfaces) {
+    count += faces.size();
+    for (const FaceCorners& t : faces) sum += area_vector(mesh, t);
   }
   EXPECT_EQ(count, boundary_faces(mesh).size());
   EXPECT_LT(sum.norm(), 1e-12);
 }
 
-TEST_P(RoundMeshes, HaveNoSlivers) { EXPECT_GT(worst_quality(GetParam().second), 0.2); }
+TEST_P(RoundMeshes, HaveNoSlivers) {
+  if (GetParam().second.has_tets_only()) {
+    EXPECT_GT(worst_quality(GetParam().second), 0.2);
+  }
+}
 
 INSTANTIATE_TEST_SUITE_P(Generators, RoundMeshes,
                          testing::Values(std::pair{"cylinder8", make_cylinder(cylinder_of(8))},
@@ -119,7 +147,9 @@ INSTANTIATE_TEST_SUITE_P(Generators, RoundMeshes,
                                          std::pair{"graded", make_cylinder(cylinder_of(16, 0.5))},
                                          std::pair{"tube12", make_tube(tube_of(12))},
                                          std::pair{"tube31", make_tube(tube_of(31))},
-                                         std::pair{"graded_tube", make_tube(tube_of(16, 2))}),
+                                         std::pair{"graded_tube", make_tube(tube_of(16, 2))},
+                                         std::pair{"hexahedra", make_cylinder(with_hexahedra(cylinder_of(16)))},
+                                         std::pair{"hexahedra_of_tube", make_tube(with_hexahedra(tube_of(12)))}),
                          [](const auto& test) { return test.param.first; });
 
 TEST(Tube, GradingIsTheRatioOfOutermostToInnermostRing) {

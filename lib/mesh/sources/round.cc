@@ -1,9 +1,20 @@
 // The mesh sources `cylinder` and `tube`.
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/mesh/sources/source_keys.h"
 
 namespace orthodyn {
+
+template <>
+struct EnumNames<RoundMesh::Elements> {
+  static constexpr std::array<std::pair<RoundMesh::Elements, const char*>, 2> list{
+      {{RoundMesh::Elements::tetrahedra, "tetrahedra"}, {RoundMesh::Elements::hexahedra, "hexahedra"}}};
+};
+
 namespace {
 
 constexpr Range kGrading{0.01, 100};
@@ -22,6 +33,8 @@ class RoundSource : public MeshSource, public Round {
   Round mesh() const {
     Round mesh = *this;
     mesh.cells = {.around = counts[0], .through = counts[1], .along = counts[2], .grading = grading};
+    mesh.elements = elements_.value_or(this->order == 2 && flatness(*this) > kPlate ? RoundMesh::Elements::hexahedra
+                                                                                    : RoundMesh::Elements::tetrahedra);
     return mesh;
   }
 
@@ -32,15 +45,32 @@ class RoundSource : public MeshSource, public Round {
         .key("length", &S::length, "Length along the axis.", {.required = true, .unit = "m", .range = kPositive})
         .key("cells", &S::counts, "Cells around, through (rings), along.", {.required = true, .range = {1, 1e6}})
         .key("grading", &S::grading, "Thickness of the outermost ring over that of the innermost.", {.range = kGrading})
+        .key("elements", &S::elements_,
+             "tetrahedra, or hexahedra of 20 nodes (8 with `order: 1`). Default: hexahedra for a tube whose cells are "
+             "more than four times wider than thick, unless `order: 1` is given; otherwise tetrahedra.")
         .key("order", &S::order, kOrderSentence, kOrderRule)
         .key("origin", &S::origin, "Centre of end0.", {.unit = "m"})
         .key("axis", &S::axis, "Direction from end0 to end1, of any length.")
         .check([](const S& source, const Config& config) {
           const auto [around, through, along] = source.counts;
-          check_mesh_size(S::tets_per_layer(around, through) * along, config.at("cells"));
+          const auto elements = source.mesh().elements;
+          if (!source.elements_) config.fill("elements", Value<RoundMesh::Elements>::yaml(elements));
+          const double per_cell = elements == RoundMesh::Elements::hexahedra ? 1 : 6;
+          check_mesh_size(per_cell * S::cells_per_layer(around, through) * along, config.at("cells"));
           if (source.axis.norm() == 0) config.at("axis").fail("is zero; give a direction");
         });
   }
+
+ private:
+  // Smaller width of the cells of a tube over their mean thickness; 0 for a cylinder.
+  static double flatness(const RoundSource<TubeMesh>& tube) {
+    const double thickness = (tube.radius - tube.inner_radius) / tube.counts[1];
+    return std::min(2 * std::numbers::pi * tube.radius / tube.counts[0], tube.length / tube.counts[2]) / thickness;
+  }
+  static double flatness(const RoundSource<CylinderMesh>&) { return 0; }
+
+  static constexpr double kPlate = 4;
+  std::optional<RoundMesh::Elements> elements_;
 };
 
 class CylinderSource : public RoundSource<CylinderMesh> {
@@ -53,8 +83,8 @@ class CylinderSource : public RoundSource<CylinderMesh> {
   }
   LoadedMesh load() const override { return {.mesh = make_cylinder(mesh())}; }
 
-  // The number of tets per layer: three for each triangle of rings and core.
-  static double tets_per_layer(double around, double through) { return 6 * (around * through + around * around / 16); }
+  // In the rings and the core.
+  static double cells_per_layer(double around, double through) { return around * through + around * around / 16; }
 };
 
 class TubeSource : public RoundSource<TubeMesh> {
@@ -72,7 +102,7 @@ class TubeSource : public RoundSource<TubeMesh> {
   }
   LoadedMesh load() const override { return {.mesh = make_tube(mesh())}; }
 
-  static double tets_per_layer(double around, double through) { return 6 * around * through; }
+  static double cells_per_layer(double around, double through) { return around * through; }
 };
 
 const bool round_registered[] = {
