@@ -9,16 +9,16 @@ namespace {
 std::string scene_text(const Beam& beam, int across) {
   const std::string constants = beam.material == "isotropic" ? "young: 2e6" : "young: [2e6, 2e5, 1e5]";
   return fmt::format(R"(
-mesh: {{type: box, size: [1, 0.2, 0.2], cells: [{}, {}, {}], order: {}}}
+mesh: {{type: box, size: [1, 0.2, 0.2], cells: [{}, {}, {}], order: {}, elements: {}}}
 materials: {{soft: {{type: {}, density: 1000, {}, nu: 0.3}}}}
-regions: {{body: {{material: soft, axes: {{first: [0.781639, 0.550117, -0.293958], second: [-0.482929, 0.832030, 0.272956]}}}}}}
+regions: {{body: {{material: soft, formulation: {}, axes: {{first: [0.781639, 0.550117, -0.293958], second: [-0.482929, 0.832030, 0.272956]}}}}}}
 {}
 gravity: [0, 0, -4]
 clamps: [{{surface: x0}}]
 time: {{end: 1}}
 integrator: {{type: cvode_bdf}}
 )",
-                     5 * across, across, across, beam.order, beam.material, constants,
+                     5 * across, across, across, beam.order, beam.elements, beam.material, constants, beam.formulation,
                      beam.damped ? "damping: {stiffness: 0.01}" : "");
 }
 

@@ -9,6 +9,8 @@ struct Beam {
   bool damped = false;
   int order = 1;                                // of the elements
   std::string material = "orthotropic_stable";  // or isotropic
+  std::string elements = "tetrahedra";          // of a box
+  std::string formulation = "auto";
 };
 
 // `across` cells over height and width, 5 `across` cells along the beam.

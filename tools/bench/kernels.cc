@@ -216,6 +216,12 @@ void register_kernels(bool large, int calls) {
   all.add("force, quadratic elements", "6,480", quadratic, force);
   all.add("tangent, quadratic elements", "6,480", quadratic, tangent);
   all.add("outputs, quadratic elements", "6,480", quadratic, outputs);
+  for (const char* kind : {"hexahedra", "hexahedra_27", "wedges"})
+    for (const char* formulation : {"displacement", "mixed"}) {
+      const auto beam = std::make_shared<LazyBeam>(Beam{false, 2, "orthotropic_stable", kind, formulation}, 4);
+      all.add(fmt::format("force, {} {}", formulation, kind), "4 across", beam, force);
+      all.add(fmt::format("tangent, {} {}", formulation, kind), "4 across", beam, tangent);
+    }
 }
 
 void register_growth() {
