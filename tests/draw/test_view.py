@@ -76,9 +76,26 @@ class ASkin(unittest.TestCase):
         corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
         points = np.concatenate([corners, [0.5 * (corners[a] + corners[b]) for a, b in middles]])
         from draw.cells import TET_PARTS
-        skin = Skin(Frame(points, np.array(TET_PARTS), cell_of=np.zeros(8, int), corners=np.arange(4)))
+        skin = Skin(Frame(points, np.array(TET_PARTS), cell_of=np.zeros(8, int), cells=np.arange(10)[None],
+                          cell_types=np.array([24])))
         self.assertEqual((len(skin.faces), len(skin.edges)), (16, 12))
         self.assertEqual(set(skin.cell), {0})
+
+
+    def test_of_hexahedra_and_wedges_has_the_edges_of_these(self):
+        from draw.cells import tets_of
+        cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+        wedge = cube[[0, 1, 3, 4, 5, 7]]
+        for kind, points, edges, volume in ((12, cube, 12, 1), (13, wedge, 9, 0.5)):
+            cells = np.random.default_rng(3).permutation(len(points))[None]
+            tets, row = tets_of(kind, cells)
+            at = np.empty_like(points)
+            at[cells[0]] = points
+            p = at[tets]
+            volumes = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+            self.assertAlmostEqual(np.abs(volumes).sum(), volume)
+            skin = Skin(Frame(at, tets, cell_of=row, cells=cells, cell_types=np.array([kind])))
+            self.assertEqual(len(skin.edges), edges)
 
 
 class APage(OfAResult):

@@ -54,7 +54,7 @@ class Axes:
         self.frame, self.points = frame, frame.points
         self.axes = [unit(frame.cell_fields[f"axis_{k}"].astype(float)) for k in (1, 2)]
         frame.cell_fields[FIELD] = self.axes[0]
-        self.surface = Surface(self.points, frame.tets)
+        self.surface = Surface(self.points, frame.tets, frame.cell_edges())
         self.colours = _CellColours(paler(direction_colours(self.axes[0]), 0.35))
         low, high = self.points[self.surface.nodes].min(axis=0), self.points[self.surface.nodes].max(axis=0)
         digit = 10.0 ** (np.floor(np.log10(high - low)) - 2)  # rounded for the label

@@ -56,17 +56,27 @@ def add_body(paint, surface, points, values, colouring, camera, budget):
     paint.add(flat[:, split.triangles].reshape(-1, 3, 2), depth.ravel(), rgb.reshape(-1, 3), rgb.reshape(-1, 3), 0.4)
 
     outline = outline_edges(surface, front)[front]
-    # Lines are moved towards the eye by the size of a small triangle. Otherwise a neighbour that is drawn later would
-    # cover half of their width.
-    nearer = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)[:, None] / split.n
+    size = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)[:, None] / split.n
+    nearer = _nearer(surface, front, camera.depth(points), split.n) + 0.15 * size
     for e, rows in enumerate(split.edges):
         owner, start, end = rows.T
-        for chosen, darkness, width in ((~outline[:, e], 0.16, 0.35), (outline[:, e], 0.72, 0.9)):
+        for chosen, darkness, width in ((~outline[:, e] & surface.of_cell[front, e], 0.16, 0.35), (outline[:, e], 0.72, 0.9)):
             if width < 0.5 and len(surface.faces) > FEW_FACES:
                 continue
             ink = (1 - darkness) * rgb[chosen][:, owner] + darkness * INK
             paint.add_segments(flat[chosen][:, start].reshape(-1, 2), flat[chosen][:, end].reshape(-1, 2),
-                               (depth[:, owner] + nearer)[chosen].ravel(), ink.reshape(-1, 3), width)
+                               (depth[:, owner] + nearer[:, e, None])[chosen].ravel(), ink.reshape(-1, 3), width)
+
+
+def _nearer(surface, front, depth, n):
+    """How far the lines (v,3) of the visible faces are moved towards the eye: as far as the small triangle behind the
+    line, of the neighbour, can be nearer; add_body() adds a little. Otherwise it would be drawn later and cover half of the line's width. A line
+    that is moved farther would show through a thin part in front of it."""
+    start, end = surface.faces, np.roll(surface.faces, -1, axis=1)
+    opposite = surface.faces[surface.neighbour].sum(axis=-1) - start - end
+    is_seen = (surface.neighbour >= 0) & front[surface.neighbour]
+    apex = depth[np.where(is_seen, opposite, 0)]
+    return np.where(is_seen, np.maximum(apex - (depth[start] + depth[end]) / 2, 0) / n, 0)[front]
 
 
 def draw_ghost(axes, surface, rest, camera):

@@ -34,7 +34,7 @@ class Scene:
         first = series.frame(indices[0])
         if not len(first.tets):
             raise DrawError(f"{series.paths[indices[0]]}: no tetrahedra to draw")
-        self.surface = Surface(first.points, first.tets)
+        self.surface = Surface(first.points, first.tets, first.cell_edges())
         labels = load_factor_labels if is_static(series.folder) else time_labels
         self.labels = dict(zip(indices, labels([series.times[i] for i in indices])))
         self._shape = first.points.shape, first.tets.shape

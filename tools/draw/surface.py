@@ -31,10 +31,11 @@ def unit(vectors):
 class Surface:
     """The boundary of a body. Sharp edges are those of the rest shape, so that edges do not flicker in time.
 
-    Edge e of a face joins the face's corners e and e + 1.
+    Edge e of a face joins the face's corners e and e + 1. `of_cell` (f,3) tells which of them are among `cell_edges`
+    (m,2); by default all.
     """
 
-    def __init__(self, points, tets):
+    def __init__(self, points, tets, cell_edges=None):
         self.num_points = len(points)
         self.faces, self.cell = boundary_faces(points, tets)
         self.nodes = np.unique(self.faces)
@@ -43,10 +44,18 @@ class Surface:
         across = np.einsum("fk,fek->fe", normal, normal[self.neighbour])
         self.sharp = (self.neighbour < 0) | (across < CREASE_COSINE)
         self._pairs = self._smooth_pairs(normal)
+        keys = self._edge_keys()
+        self.of_cell = (np.ones(len(keys), bool) if cell_edges is None else
+                        np.isin(keys, self._key(cell_edges[:, 0], cell_edges[:, 1]))).reshape(-1, 3)
+
+    def _key(self, start, end):
+        return np.minimum(start, end) * self.num_points + np.maximum(start, end)
+
+    def _edge_keys(self):
+        return self._key(self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel())
 
     def _neighbours(self):
-        start, end = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
-        key = np.minimum(start, end) * self.num_points + np.maximum(start, end)
+        key = self._edge_keys()
         order = np.argsort(key, kind="stable")
         _, first, count = np.unique(key[order], return_index=True, return_counts=True)
         neighbour = np.full(len(key), -1)

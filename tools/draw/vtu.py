@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .cells import NAMES, SIZES, tets_of
+from .cells import NAMES, SIZES, edges_of, tets_of
 from .errors import DrawError
 
 NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
@@ -20,22 +20,18 @@ NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
 @dataclass
 class Frame:
     """Rest positions (n,3); linear tets (m,4), the parts of the cells of the file; fields by name, each (n or m,
-    components); the cell of each tet (m,), ascending; the nodes at corners of cells; and the cells of the file (c, most
-    nodes of a cell), with -1 after the nodes of smaller cells, with their VTK types (c,)."""
+    components); the cell of each tet (m,), ascending; and the cells of the file (c, most nodes of a cell), with -1 after the nodes of smaller cells, with their VTK types (c,)."""
     points: np.ndarray
     tets: np.ndarray
     node_fields: dict = field(default_factory=dict)
     cell_fields: dict = field(default_factory=dict)
     cell_of: np.ndarray = None
-    corners: np.ndarray = None
     cells: np.ndarray = None
     cell_types: np.ndarray = None
 
     def __post_init__(self):
         if self.cell_of is None:
             self.cell_of = np.arange(len(self.tets))
-        if self.corners is None:
-            self.corners = np.unique(self.tets)
         if self.cells is None:
             self.cells, self.cell_types = self.tets, np.full(len(self.tets), 10)
 
@@ -43,9 +39,11 @@ class Frame:
     def num_cells(self):
         return int(self.cell_of[-1]) + 1 if len(self.cell_of) else 0
 
-    @property
-    def is_split(self):
-        return self.num_cells < len(self.tets)
+    def cell_edges(self):
+        """The edges (m,2) of the cells of the file."""
+        return np.concatenate([np.empty((0, 2), np.int64)] + [
+            edges_of(int(kind), self.cells[self.cell_types == kind][:, :SIZES[int(kind)][0]])
+            for kind in np.unique(self.cell_types)])
 
     def by_cell(self, name):
         """The values of a cell field, one row per cell of the file."""
@@ -133,19 +131,17 @@ def _cells(arrays, cells, count, num_points):
     start = np.cumsum(sizes) - sizes
     table = np.full((count, sizes.max(initial=4)), -1)
     table[np.arange(table.shape[1]) < sizes[:, None]] = nodes
-    tets, owners, corners = [np.empty((0, 4), np.int64)], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+    tets, owners = [np.empty((0, 4), np.int64)], [np.empty(0, np.int64)]
     for kind in np.unique(types):
-        size, num_corners = SIZES[int(kind)]
+        size = SIZES[int(kind)][0]
         own = np.flatnonzero(types == kind)
         of_kind = nodes[start[own][:, None] + np.arange(size)]
         parts, row = tets_of(int(kind), of_kind)
         tets.append(parts)
         owners.append(own[row])
-        corners.append(of_kind[:, :num_corners].ravel())
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    return np.concatenate(tets)[order], {"cell_of": owner[order], "corners": np.unique(np.concatenate(corners)),
-                                         "cells": table, "cell_types": types}
+    return np.concatenate(tets)[order], {"cell_of": owner[order], "cells": table, "cell_types": types}
 
 
 def read_vtu(path):

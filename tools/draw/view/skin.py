@@ -10,23 +10,15 @@ class Skin:
     them."""
 
     def __init__(self, frame):
-        surface = Surface(frame.points, frame.tets)
+        surface = Surface(frame.points, frame.tets, frame.cell_edges())
         self.surface = surface
         self.faces = surface.faces
         self.cell = frame.cell_of[surface.cell]
         start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
         pairs = np.stack([np.minimum(start, end), np.maximum(start, end)], axis=1)
-        self.edges = np.unique(pairs[self._of_cells(frame, pairs)], axis=0)
+        self.edges = np.unique(pairs[surface.of_cell.ravel()], axis=0)
         self.creases = np.unique(pairs[surface.sharp.ravel()], axis=0)
         self.normal = _normals(surface)
-
-    def _of_cells(self, frame, pairs):
-        """The edges of cells, without the edges between the parts of a quadratic face."""
-        if not frame.is_split:
-            return np.ones(len(pairs), bool)
-        corner = np.zeros(len(frame.points), bool)
-        corner[frame.corners] = True
-        return corner[pairs].any(axis=1)
 
 
 def _normals(surface):
