@@ -6,6 +6,7 @@
 #include "lib/element/warped_law.h"
 #include "lib/fem/element_type.h"
 #include "lib/fem/terms/mixed_elastic_term.h"
+#include "lib/material/stiffness_contrast.h"
 
 namespace orthodyn {
 
@@ -98,7 +99,8 @@ class ElementTypeOf final : public ElementType {
   template <class C>
   std::unique_ptr<ElasticTerm> mixed_term(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
                                           const BlockPattern& pattern) const {
-    const double kappa = bulk_modulus(Stiffness(stiffness));
+    constexpr bool kProjectsAll = E::kDegree == 1 || E::kPressures > 1;
+    const double kappa = kProjectsAll ? bulk_modulus(stiffness) : excess_bulk_modulus(stiffness);
     const C rest = without_bulk(stiffness, kappa);
     const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
       return std::make_unique<MixedElasticTermOf<E, std::decay_t<decltype(law)>>>(

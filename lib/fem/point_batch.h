@@ -1,11 +1,11 @@
 // Shape gradients and volume of one integration point for a batch of elements, lane by lane.
 //
 // Elements without integration rules store their gradients. Isoparametric ones store the map J^-1 Q from natural
-// coordinates to material axes, a sixth of the memory of a hexahedron's gradients: with the derivatives s_a of the
-// shape functions in natural coordinates, the same for all elements, g_a = (J^-1 Q)^T s_a.
+// coordinates to material axes, a sixth of the memory of a 20-node hexahedron's gradients: with the derivatives s_a of
+// the shape functions in natural coordinates, the same for all elements, g_a = (J^-1 Q)^T s_a.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "lib/element/batch.h"
 #include "lib/element/element.h"

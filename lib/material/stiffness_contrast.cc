@@ -1,5 +1,6 @@
 #include "lib/material/stiffness_contrast.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <variant>
@@ -33,6 +34,11 @@ double contrast_without_bulk(const Stiffness& stiffness) {
   const double kappa = bulk_modulus(stiffness);
   const Mat6 rest = std::visit([&](const auto& c) { return voigt(without_bulk(c, kappa)); }, stiffness);
   return eigenvalues_of(rest).values[5] / eigenvalues_of(C).values[0];
+}
+
+double excess_bulk_modulus(const Stiffness& stiffness) {
+  constexpr double kOfSmallest = 2;
+  return std::max(bulk_modulus(stiffness) - kOfSmallest * eigenvalues_of(voigt(stiffness)).values[0], 0.0);
 }
 
 bool is_nearly_incompressible(const Stiffness& stiffness) {

@@ -18,8 +18,12 @@ StiffnessContrast stiffness_contrast(const Mat6& stiffness);
 // the mixed formulation at least halves the contrast.
 bool is_nearly_incompressible(const Stiffness& stiffness);
 
+// The part of the bulk modulus (Pa) that exceeds twice the smallest eigenvalue of C: of an isotropic material, the part
+// above that of nu = 0.385, at which elements do not lock.
+double excess_bulk_modulus(const Stiffness& stiffness);
+
 // The largest eigenvalue of C - kappa I (x) I (without_bulk()) over the smallest of C: the contrast that the mixed
-// formulation leaves.
+// formulation leaves if it projects all of kappa, and at most 6 less than if it projects the excess.
 double contrast_without_bulk(const Stiffness& stiffness);
 
 }  // namespace orthodyn

@@ -48,6 +48,13 @@ TEST(WithoutBulk, IsWithoutStressUnderPressureAndElsePositive) {
   expect_no_stress_under_pressure(random_stiffness(802));
 }
 
+TEST(ExcessBulkModulus, IsTheBulkModulusBeyondFourShearModuli) {
+  const IsotropicStiffness c = isotropic_stiffness(7, 0.4999);
+  EXPECT_NEAR(excess_bulk_modulus(c) / (bulk_modulus(c) - 4 * c.mu), 1, 1e-9);
+  EXPECT_LE(excess_bulk_modulus(isotropic_stiffness(7, 5.0 / 13)), 1e-12);
+  EXPECT_EQ(excess_bulk_modulus(isotropic_stiffness(7, 0.3)), 0);
+}
+
 TEST(StiffnessContrast, OfAnIsotropicMaterialIsOfVolumeToShear) {
   for (const double nu : {0.1, 0.3, 0.4999}) {
     const StiffnessContrast found = stiffness_contrast(voigt(isotropic_stiffness(7, nu)));

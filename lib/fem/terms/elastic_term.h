@@ -34,11 +34,11 @@ struct ElasticRegion {
   std::optional<Strength> strength = {};  // empty if the material has no strengths
   std::vector<int> numbers = {};          // indices of `cells` in the whole mesh; empty with one rank
   int elements = 0;                       // number of the region's elements on all ranks
-  std::string mesh_region = {};           // name of the region in the mesh; `name` except for a ply
-  std::string ply = {};                   // name of the whole ply, of which this may be a part; "" for a region
-  std::vector<int> cells_of_all = {};     // cells of all ranks in the whole mesh, ascending; empty with one rank
-  double share = 1;                       // of a ply in the thickness of its cells
-  bool mixed = false;                     // formulation for nearly incompressible materials (mixed_elastic_term.h)
+  std::string mesh_region = {};  // name of the region in the mesh; `name` except for a ply or one of several kinds
+  std::string ply = {};          // name of the whole ply, of which this may be a part; "" for a region
+  std::vector<int> cells_of_all = {};  // cells of all ranks in the whole mesh, ascending; empty with one rank
+  double share = 1;                    // of a ply in the thickness of its cells
+  bool mixed = false;                  // formulation for nearly incompressible materials (mixed_elastic_term.h)
 };
 
 class ElasticTerm : public Term {

@@ -1,7 +1,11 @@
-// Elasticity in the mixed formulation, for nearly incompressible materials: the volume strain theta is replaced by its
-// projection pi theta onto polynomials in each element (volume_projection.h). With the bulk modulus kappa,
+// Elasticity in the mixed formulation, for nearly incompressible materials: in the energy of a bulk modulus kappa, the
+// volume strain theta is replaced by its projection pi theta onto polynomials in each element (volume_projection.h):
 //
 //     E = integral of Psi' + kappa/2 (pi theta)^2,    Psi' the law's energy for C' = C - kappa I (x) I.
+//
+// kappa is bulk_modulus(C). Quadratic elements with a constant pressure project excess_bulk_modulus(C) only. Otherwise
+// a cell that bends would have no stiffness against the part of theta that varies within it: a beam of one tetrahedron
+// through its thickness would be 50 % too soft, one of wedges five times too soft.
 //
 // This is the displacement-pressure formulation with the pressure -kappa pi theta eliminated in each element (Malkus &
 // Hughes 1978, Comput. Methods Appl. Mech. Eng. 15, 63): the mean dilatation for a constant pressure (Nagtegaal, Parks
@@ -23,7 +27,7 @@ namespace orthodyn {
 template <Element E, class Law>
 class MixedElasticTermOf final : public ElasticTermOf<E, Law> {
  public:
-  // `law`: of C'. `kappa`: bulk_modulus(C), Pa. Other arguments as in the base class.
+  // `law`: of C'. `kappa`: the projected part of the bulk modulus, Pa. Other arguments as in the base class.
   MixedElasticTermOf(const ElementType& type, const ElementMesh& mesh, ElasticRegion region, const Law& law,
                      double kappa, const BlockPattern& pattern, const IntegrationRule* rule)
       : Base(type, mesh, std::move(region), law, pattern, rule),
