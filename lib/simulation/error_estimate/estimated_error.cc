@@ -17,8 +17,7 @@ namespace orthodyn {
 namespace {
 
 constexpr double kMaxFinerUnknowns = 120'000;
-constexpr double kMaxFinerMixedUnknowns = 40'000;  // whose matrix is factorised
-constexpr double kMaxShapeEntries = 5e6;           // of mode shapes in finer elements
+constexpr double kMaxShapeEntries = 5e6;  // of mode shapes in finer elements
 
 // Calls `work`, which uses finer elements. Returns false if it fails, because a failed estimate must not fail the
 // computation.
@@ -121,8 +120,7 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  const double most = is_mixed(model) ? kMaxFinerMixedUnknowns : kMaxFinerUnknowns;
-  return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= most;
+  return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
 }
 
 StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,

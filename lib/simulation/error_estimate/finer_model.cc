@@ -115,7 +115,10 @@ bool is_nested(const FemModel& model) {
   });
 }
 
-double FinerModel::estimated_unknowns(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
+double FinerModel::estimated_unknowns(const FemModel& coarse) {
+  const Mesh& mesh = coarse.parts().mesh;
+  return (mesh.order() == 2 || mesh.has_tets_only() ? 8.0 : 4.0) * coarse.num_dofs();
+}
 
 // Nodes of the coarse mesh keep their numbers.
 FinerModel::Rows FinerModel::nodal_lift(const Mesh& fine) const {

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kAccuracy = 0.02;  // relative accuracy of the correction's energy
 constexpr int kMaxIterations = 300;
-constexpr int kMaxFactorised = 40'000;  // unknowns of finer 20-node hexahedra; larger ones are solved by iteration
-constexpr double kFreeShift = 1e-10;    // shift over the largest squared frequency, for free bodies
+constexpr double kFreeShift = 1e-10;  // shift over the largest squared frequency, for free bodies
 
 // Ratio of the energy of the whole error to the part that finer elements resolve. This energy is proportional to h^p
 // with the cell size h and p from 1 (edges, corners) to 4 (smooth solution, quadratic elements), so that halving h
@@ -29,33 +28,35 @@ struct Matrices {
   std::vector<double> stiffness, shifted;
 };
 
-Matrices matrices(const FemModel& whole, const State& about, double shift) {
+Matrices matrices(const FemModel& whole, const State& about, double shift, TangentKind kind) {
   const auto unloaded = about.load_factor == 0 ? without_loads(whole) : nullptr;
   const Model& model = unloaded ? *unloaded : static_cast<const Model&>(whole);
   Linearization at;
-  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
+  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), kind, at);
   Matrices out{std::vector<double>(at.stiffness.size()), std::vector<double>(at.stiffness.size())};
   model.combine({0, 0, 1}, at, out.stiffness.data());
   model.combine({shift, 0, 1}, at, out.shifted.data());
   return out;
 }
 
-// Solves (K + s M) x = b for the finer model at a coarse state; s is the shift.
+// Solves (K + s M) x = b for the finer model at a coarse state; s is the shift, and K the tangent of this kind. If the
+// elements are not nested, the matrix is factorised: the two-level iteration, whose accuracy is relative to an energy
+// that contains that of the lifted displacement, would stop too early (energy_of_lift()).
 class FinerSystem {
  public:
-  FinerSystem(const FinerModel& finer, const State& coarse, double shift)
+  FinerSystem(const FinerModel& finer, const State& coarse, double shift, TangentKind kind)
       : finer_(finer), q_(finer.state_of(coarse.t, coarse.q)) {
     const FemModel& model = finer.coarse();
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
-    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
-    if (is_mixed(model) || (!is_nested(model) && finer.model().num_dofs() <= kMaxFactorised)) {
+    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift, kind);
+    if (!is_nested(model)) {
       direct_ = make_solver_for(finer.model().pattern());
       if (direct_->factor(values_.shifted.data()) != FactorStatus::ok)
         throw RunError("the tangent of the finer elements cannot be factorised");
       return;
     }
-    coarse_values_ = matrices(model, coarse, shift).shifted;
+    coarse_values_ = matrices(model, coarse, shift, kind).shifted;
     coarse_ = make_solver_for(model.pattern());
     coarse_->set_tolerance({kAccuracy, 0});
     if (coarse_->factor(coarse_values_.data()) != FactorStatus::ok)
@@ -199,7 +200,10 @@ StateError state_error(const FinerModel& finer, const State& coarse, bool in_mot
   const FemModel& fine = finer.model();
   const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
   const double fastest = finer.coarse().frequency_bound();
-  const FinerSystem system(finer, coarse, is_free ? kFreeShift * fastest * fastest : 0);
+  // The lifted displacement of mixed elements changes the volumes of the finer ones: their pressures are too large by
+  // far, and with them the second derivatives in the exact tangent.
+  const TangentKind kind = is_mixed(finer.coarse()) ? TangentKind::gauss_newton : TangentKind::exact;
+  const FinerSystem system(finer, coarse, is_free ? kFreeShift * fastest * fastest : 0, kind);
   Vector force(fine.num_dofs());
   fine.force(coarse.t, system.q(), in_motion ? finer.lift(coarse.v) : Vector(Vector::Zero(force.size())), force);
   if (in_motion) force -= mass_times(fine, finer.lift(acceleration(finer.coarse(), coarse)));
@@ -224,7 +228,8 @@ std::vector<double> frequency_errors(const FinerModel& finer, const State& about
   std::vector<double> errors(modes.modes.size(), 0);
   const auto zeros = static_cast<std::size_t>(modes.zeros);
   if (zeros == errors.size()) return errors;
-  const FinerSystem system(finer, about, shift_for(modes));
+  // Also of mixed elements: frequencies about a loaded state depend on the part of the tangent that Gauss-Newton lacks.
+  const FinerSystem system(finer, about, shift_for(modes), TangentKind::exact);
   Subspace space(system, finer.model(), static_cast<Eigen::Index>(2 * errors.size() - zeros));
   Eigen::MatrixXd residuals(finer.model().num_dofs(), static_cast<Eigen::Index>(errors.size() - zeros));
   for (std::size_t k = 0; k < errors.size(); ++k) {
