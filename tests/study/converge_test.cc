@@ -44,6 +44,7 @@ TEST(Richardson, TakesTheFinestOfValuesThatOscillateALittle) {
 
 TEST(Richardson, FindsNoLimitWhereNoneIsApproached) {
   EXPECT_FALSE(extrapolate({1, 1.2, 1.1}, 2, 4));     // to and fro
+  EXPECT_FALSE(extrapolate({1, 1.001, 0.98}, 2, 4));  // to and fro, ever more
   EXPECT_FALSE(extrapolate({1, 1.1, 1.3}, 2, 4));     // away
   EXPECT_FALSE(extrapolate({1, 1.1, 1.19}, 2, 4));    // hardly slower
   EXPECT_FALSE(extrapolate({5, 1, 1.1, 1.3}, 2, 4));  // the last three count

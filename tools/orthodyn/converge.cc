@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lib/core/spelling.h"
+#include "lib/scene/mesh_materials.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/scene_file.h"
 #include "lib/simulation/run/several_ranks.h"
@@ -36,14 +37,12 @@ std::vector<int> parse_orders(const std::string& text) {
   throw ConfigError(fmt::format("--order: expected 1, 2 or 1,2, found '{}'", text));
 }
 
-// Linear and quadratic tetrahedra are compared; hexahedra and wedges are quadratic only. Reading the scene fills in the
-// elements of a box.
+// Linear and quadratic tetrahedra are compared; of hexahedra and wedges only quadratic ones, because linear ones are
+// far too stiff in bending, and layups and 27-node hexahedra exclude them.
 std::vector<int> orders_of(const ConvergeArguments& arguments) {
   if (!arguments.orders.empty()) return parse_orders(arguments.orders);
-  const Config config = read_scene_file(arguments.file, {.set = arguments.set});
-  read_scene(config);
-  const Config mesh = config.at("mesh");
-  return mesh.has("elements") && mesh.at("elements").text() != "tetrahedra" ? std::vector{2} : std::vector{1, 2};
+  const Scene scene = read_scene(read_scene_file(arguments.file, {.set = arguments.set}));
+  return load_mesh(scene).mesh.has_tets_only() ? std::vector{1, 2} : std::vector{2};
 }
 
 Convergence convergence_from(const ConvergeArguments& arguments) {
@@ -130,8 +129,8 @@ void declare(ConvergeArguments& arguments, CommandOptions& options) {
       .range(2, 8)
       .show_default();
   options.value("--order", arguments.orders,
-                "Element orders to compute: 1 (linear), 2 (quadratic) or 1,2. Default: 1,2; for hexahedra and wedges "
-                "of a box 2.");
+                "Element orders to compute: 1 (linear), 2 (quadratic) or 1,2. Default: 1,2; 2 for meshes with "
+                "hexahedra or wedges.");
   options
       .repeated("--quantity", arguments.quantities,
                 "Quantity to compute, e.g. tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: "

@@ -9,8 +9,10 @@ namespace {
 
 constexpr double kSafetyFactor = 1.25;  // Roache's, for an observed order
 constexpr double kLowestOrder = 0.5;
-constexpr double kRoundOff = 1e-9;     // relative difference of equal values
-constexpr double kOscillation = 0.05;  // range of oscillating values with a limit, relative to the value
+constexpr double kRoundOff = 1e-9;  // relative difference of equal values
+// Largest range of oscillating values with a limit, relative to the value: with decreasing differences, and with
+// others.
+constexpr double kOscillation = 0.05, kGrowingOscillation = 0.01;
 
 // Empty unless the second step is smaller than the first and has the same sign.
 std::optional<double> observed_order(double coarse, double middle, double fine, double ratio) {
@@ -26,7 +28,9 @@ std::optional<Extrapolation> extrapolate(const std::vector<double>& values, doub
   if (n < 3) return std::nullopt;
   const double coarse = values[n - 3], middle = values[n - 2], fine = values[n - 1];
   const double spread = std::max({coarse, middle, fine}) - std::min({coarse, middle, fine});
-  const bool oscillates = (middle - coarse) * (fine - middle) < 0 && spread <= kOscillation * std::abs(fine);
+  const bool calms = std::abs(fine - middle) < std::abs(middle - coarse);
+  const bool oscillates = (middle - coarse) * (fine - middle) < 0 &&
+                          spread <= (calms ? kOscillation : kGrowingOscillation) * std::abs(fine);
   if (oscillates || spread <= kRoundOff * std::abs(fine)) return Extrapolation{fine, spread, std::nullopt};
   const auto order = observed_order(coarse, middle, fine, ratio);
   if (!order || *order < kLowestOrder) return std::nullopt;
