@@ -2,8 +2,8 @@
 // coordinates in [-1, 1]^3.
 //
 // Stiffness and mass: 2 x 2 x 2 Gauss points, exact for a parallelepiped; the volume is exact for every cell. The
-// stiffness has full rank. In bending the element has shear strains that grow with (length / thickness)^2 of a cell.
-// Its mixed formulation, with one pressure per element, is the B-bar element of Hughes (1980).
+// stiffness has full rank. In bending, parasitic shear adds a stiffness that grows with (length / thickness)^2 of a
+// cell. Its mixed formulation, with one pressure per element, is the B-bar element of Hughes (1980).
 #pragma once
 
 #include "lib/element/cube_functions.h"

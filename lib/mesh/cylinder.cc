@@ -31,7 +31,8 @@ void check_size(double size, const char* what) {
   require(size > 0 && std::isfinite(size), fmt::format("{} {} m; it must be positive and finite", what, size));
 }
 
-void check_cells(const RoundCells& cells, bool full) {
+void check_cells(const RoundMesh& body, bool full) {
+  const RoundCells& cells = body.cells;
   require(cells.around >= 3, fmt::format("{} cells around; there must be at least 3", cells.around));
   require(!full || cells.around % 4 == 0,
           fmt::format("{} cells around a full cylinder; they must be a multiple of 4, such as {}", cells.around,
@@ -42,9 +43,9 @@ void check_cells(const RoundCells& cells, bool full) {
           fmt::format("grading {}; it must lie in [0.01, 100]", cells.grading));
   const double core = full ? cells.around / 4.0 : 0;
   const double plane = double(cells.around) * cells.through + core * core;
-  require(6 * plane * cells.along < std::numeric_limits<int>::max(),
-          fmt::format("{:.3g} elements; at most {} can be numbered", 6 * plane * cells.along,
-                      std::numeric_limits<int>::max()));
+  const double elements = (body.elements == RoundMesh::Elements::hexahedra ? 1 : 6) * plane * cells.along;
+  require(elements < std::numeric_limits<int>::max(),
+          fmt::format("{:.3g} elements; at most {} can be numbered", elements, std::numeric_limits<int>::max()));
 }
 
 // Boundaries of the rings, from 0 (inside) to 1 (outer circle). Thicknesses in geometric progression.
@@ -240,7 +241,7 @@ Mesh finish(const RoundPlane& plane, const RoundMesh& round) {
 Mesh make_cylinder(const CylinderMesh& cylinder) {
   check_size(cylinder.radius, "radius");
   check_size(cylinder.length, "length");
-  check_cells(cylinder.cells, true);
+  check_cells(cylinder, true);
   const int n = cylinder.cells.around / 4;
   RoundPlane plane{.mesh = make_core(n, kCore * cylinder.radius, cylinder.elements)};
   const auto outline = outline_of_core(n);
@@ -266,7 +267,7 @@ Mesh make_tube(const TubeMesh& tube) {
   require(
       tube.inner_radius < tube.radius,
       fmt::format("inner radius {} m, radius {} m; the inner one must be the smaller", tube.inner_radius, tube.radius));
-  check_cells(tube.cells, false);
+  check_cells(tube, false);
   RoundPlane plane;
   const int around = tube.cells.around;
   const auto circle = [radius = tube.inner_radius, around](double turn) {

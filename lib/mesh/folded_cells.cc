@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "lib/core/errors.h"
@@ -58,7 +59,7 @@ void check_folding(const Mesh& mesh, const MeshOrigin& origin) {
     throw ConfigError(
         origin.cell(cell),
         fmt::format("folded over: at one of its points the determinant of the Jacobian is {:.3g} of its mean; remesh, "
-                    "or set `split: true`, so that it becomes tetrahedra",
+                    "or try `split: true`, which accepts it if its tetrahedra all have a positive volume",
                     smallest));
   }
 }

@@ -80,7 +80,7 @@ bool turn(Mesh& mesh, int cell, const Vec3& direction) {
 void turn_along(Mesh& mesh, int cell, const Vec3& direction) {
   bool is_layered_shape = false, is_turned = false;
   with_element(mesh.cells.shape(at(cell)), [&]<class E>() {
-    if constexpr (HasIntegrationRules<E>) {
+    if constexpr (HasIntegrationRules<E> && E::kDegree == 2) {
       is_layered_shape = true;
       is_turned = turn<E>(mesh, cell, direction);
     }

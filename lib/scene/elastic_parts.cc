@@ -50,13 +50,15 @@ void check_shapes(const Region& region, const std::string& name, const CellsBySh
                     name, names_of(cells)));
 }
 
-// "tetrahedra", "wedges" or "hexahedra".
-const char* kind_of(CellShape shape) {
-  switch (topology(shape).corners) {
-    case 4: return "tetrahedra";
-    case 6: return "wedges";
-    default: return "hexahedra";
-  }
+// "tetrahedra", "wedges" or "hexahedra"; "hexahedra_20" if the region also has hexahedra with another number of nodes.
+// Empty if the region has cells of one shape.
+std::string kind_of(CellShape shape, const CellsByShape& cells) {
+  if (cells.size() == 1) return "";
+  const CellTopology& own = topology(shape);
+  const std::string name = own.corners == 4 ? "tetrahedra" : own.corners == 6 ? "wedges" : "hexahedra";
+  const auto same = std::count_if(cells.begin(), cells.end(),
+                                  [&](const auto& entry) { return topology(entry.first).corners == own.corners; });
+  return same == 1 ? name : fmt::format("{}_{}", name, own.nodes);
 }
 
 // The element type of a region's cells of one shape. `in_row`: cells_in_rows().
@@ -108,7 +110,7 @@ class PartMaker {
  public:
   PartMaker(const Scene& scene, Mesh& mesh, ElasticParts& out) : scene_(scene), mesh_(mesh), out_(out) {}
 
-  // `kind`: of these cells, if the region has several kinds; else empty.
+  // `kind`: kind_of() these cells.
   void add(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
            const std::string& kind, std::vector<int> cells, Warnings& notes) {
     if (!entry.layup.empty()) return add_plies(region, entry, axes, type, notes);
@@ -191,7 +193,7 @@ ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>&
     check_shapes(region, mesh.region_names[r], shapes);
     for (auto& [shape, own] : shapes) {
       const ElementType& type = type_of_cells(region, shape, own, in_row);
-      maker.add(r, region, field, type, shapes.size() > 1 ? kind_of(shape) : "", std::move(own), notes);
+      maker.add(r, region, field, type, kind_of(shape, shapes), std::move(own), notes);
     }
   }
   return out;

@@ -53,8 +53,8 @@ class Reading(InAFolder):
             self.read(Vtu().content(node, cell))
 
     def test_other_cells_and_points_out_of_range_are_refused(self):
-        with self.assertRaisesRegex(DrawError, r"VTK type \[12\]"):
-            self.read(Vtu().content({}, {}, types=12))
+        with self.assertRaisesRegex(DrawError, r"VTK type \[14\]"):
+            self.read(Vtu().content({}, {}, types=14))
         with self.assertRaisesRegex(DrawError, "names point 9, but there are 5"):
             self.read(Vtu(tets=np.array([[0, 1, 2, 9]])).content({}, {}))
 

@@ -11,7 +11,7 @@ namespace {
 const Mat3 kQ = Random(41).rotation();
 
 template <class C>
-Mat9 mixed(const C& stiffness, const Mat3& F0, const Mat3& F) {
+Mat9 predicted(const C& stiffness, const Mat3& F0, const Mat3& F) {
   return in_space(CorotationalLaw<C>(stiffness).predicted_tangent(F0 - kQ, F - kQ, kQ));
 }
 
@@ -25,7 +25,7 @@ TEST(PredictedTangent, IsTheExactOneWhereNothingHasMoved) {
   for (int sample = 0; sample < 10; ++sample) {
     const Mat3 F = random_strain(random, 0.3).F();
     const Mat9 exact = tangent(fibre(10), F, TangentKind::exact);
-    EXPECT_LE((mixed(fibre(10), F, F) - exact).norm(), 64 * kEps * exact.norm());
+    EXPECT_LE((predicted(fibre(10), F, F) - exact).norm(), 64 * kEps * exact.norm());
   }
 }
 
@@ -46,7 +46,7 @@ void expect_second_derivative(const C& stiffness) {
       const Vec3T<Complex> c = p.G_inverse * axial<Complex>(CMat3(p.S * s));
       return CMat3(p.R * (s + cross_matrix<Complex>(c)));
     };
-    const Mat9 geometric = mixed(stiffness, F0, F) - tangent(stiffness, F, TangentKind::gauss_newton);
+    const Mat9 geometric = predicted(stiffness, F0, F) - tangent(stiffness, F, TangentKind::gauss_newton);
     for (int direction = 0; direction < 3; ++direction) {
       const Mat3 dF = random.matrix();
       const Mat3 expected = derivative(gradient, F, dF);
@@ -65,7 +65,7 @@ TEST(PredictedTangent, HoldsTheStressThatTheTangentBeforePredicts) {
 TEST(PredictedTangent, IsTheExactOneWhereAnEndIsBlended) {
   const Mat3 inverted = Random(45).rotation() * Vec3(1.1, 0.8, -0.7).asDiagonal(), F = 1.1 * kQ;
   const Mat9 exact = tangent(fibre(10), F, TangentKind::exact);
-  EXPECT_EQ((mixed(fibre(10), inverted, F) - exact).norm(), 0);
+  EXPECT_EQ((predicted(fibre(10), inverted, F) - exact).norm(), 0);
 }
 
 }  // namespace

@@ -11,13 +11,13 @@
 
 namespace orthodyn {
 
-// Reads *NODE (Cartesian, cylindrical and spherical coordinates), *ELEMENT (C3D4, C3D10; C3D8, C3D20, C3D6, C3D15 and
-// C3D5, which are split; with variants such as C3D8R: abaqus_types.h), *NSET and *ELSET (also GENERATE, and
-// *NSET, ELSET=), *SURFACE of type ELEMENT with faces S1 to S6, SPOS and SNEG, *SOLID SECTION, *ORIENTATION and
-// *DISTRIBUTION by element, *INCLUDE and INPUT=; keywords and names in any case. Regions are the element sets of solid
-// sections; without sections, each element belongs to the last set that contains it. Sets of shells or plane elements
-// (CPS3, S4, ...), as Gmsh writes them, become surfaces. Section orientations become the cell data axis_1 and axis_2,
-// evaluated at the centre of each element.
+// Reads *NODE (Cartesian, cylindrical and spherical coordinates), *ELEMENT (C3D4, C3D10, C3D8, C3D20, C3D27, C3D6,
+// C3D15, and C3D5, with which all are split; with variants such as C3D8R: abaqus_types.h), *NSET and *ELSET (also
+// GENERATE, and *NSET, ELSET=), *SURFACE of type ELEMENT with faces S1 to S6, SPOS and SNEG, *SOLID SECTION,
+// *ORIENTATION and *DISTRIBUTION by element, *INCLUDE and INPUT=; keywords and names in any case. Regions are the
+// element sets of solid sections; without sections, each element belongs to the last set that contains it. Sets of
+// shells or plane elements (CPS3, S4, ...), as Gmsh writes them, become surfaces. Section orientations become the cell
+// data axis_1 and axis_2, evaluated at the centre of each element.
 //
 // Each *INSTANCE adds a placed copy of its part. With several instances, names get the prefix of their instance
 // ("Part-1-1.Side"), and a warning states the offset of its node and element numbers.

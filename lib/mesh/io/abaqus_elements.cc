@@ -12,6 +12,12 @@ void AbaqusElementReader::read(const AbaqusKeyword& keyword) {
   const std::string set = keyword.parameter("ELSET");
   if (!set.empty()) sets_.touch(set, file_.element_sets);
   if (const auto shape = abaqus_shape(type)) {
+    if (type.starts_with("C3D8R") || type.starts_with("C3D8I"))
+      file_.draft.warn(
+          lines_.place(),
+          "elements of type {} are computed as C3D8, with full integration: they are too stiff in bending; "
+          "`order: 2` makes them quadratic",
+          type);
     while (!lines_.at_keyword()) read_element(*shape, type, set);
   } else if (type.empty() || type.find("3D") != std::string::npos) {
     // Names of trusses, rigid elements, membranes and connectors in space contain 3D, too.

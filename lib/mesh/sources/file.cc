@@ -54,7 +54,7 @@ struct FileOptions {
           fmt::format("{}: node set \"{}\" has mid-edge nodes only and is empty with `order: 1`; leave out `order`, or "
                       "add corners to the set",
                       file.path, name));
-    if (order == 2 && !loaded.mesh.has_tets_only()) validate(loaded.mesh, {file.path});  // may have become quadratic
+    if (order && !loaded.mesh.has_tets_only()) validate(loaded.mesh, {file.path});  // its order may have changed
     for (int i = 0; i < refinements; ++i) refine(loaded);
     return loaded;
   }

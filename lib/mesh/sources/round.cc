@@ -47,7 +47,7 @@ class RoundSource : public MeshSource, public Round {
         .key("grading", &S::grading, "Thickness of the outermost ring over that of the innermost.", {.range = kGrading})
         .key("elements", &S::elements_,
              "tetrahedra, or hexahedra of 20 nodes (8 with `order: 1`). Default: hexahedra for a tube whose cells are "
-             "more than four times wider than thick, unless `order: 1` is given; otherwise tetrahedra.")
+             "more than four times wider than their mean thickness, unless `order: 1` is given; otherwise tetrahedra.")
         .key("order", &S::order, kOrderSentence, kOrderRule)
         .key("origin", &S::origin, "Centre of end0.", {.unit = "m"})
         .key("axis", &S::axis, "Direction from end0 to end1, of any length.")

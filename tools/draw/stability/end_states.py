@@ -1,5 +1,5 @@
 """The last states of a case's trials, which are read, sorted into clusters and drawn as small pictures."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,8 +67,7 @@ def _read(folder, trial):
 
 def _moved(state, positions):
     """The state's frame with its nodes at `positions`."""
-    return Frame(state.frame.points, state.frame.tets, {"displacement": positions - state.frame.points},
-                 state.frame.cell_fields)
+    return replace(state.frame, node_fields={"displacement": positions - state.frame.points})
 
 
 def _of_one_mesh(states):

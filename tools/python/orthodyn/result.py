@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 TEMPORARY = "orthodyn-"  # prefix of temporary result folders
 # meshio's name and the number of nodes, by VTK type
-CELL_TYPES = {10: ("tetra", 4), 24: ("tetra10", 10), 25: ("hexahedron20", 20), 26: ("wedge15", 15),
-              29: ("hexahedron27", 27), 32: ("wedge18", 18)}
+CELL_TYPES = {10: ("tetra", 4), 12: ("hexahedron", 8), 13: ("wedge", 6), 24: ("tetra10", 10),
+              25: ("hexahedron20", 20), 26: ("wedge15", 15), 29: ("hexahedron27", 27), 32: ("wedge18", 18)}
 
 
 class Columns(dict[str, np.ndarray]):
