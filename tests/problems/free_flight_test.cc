@@ -17,20 +17,21 @@ struct Flight {
   double stretch = 1.2, end = 20, rtol = 1e-7;
   int max_order = 5, cells = 2;
   std::string corotation = "exact", young = "[10, 1, 1]", integrator = "cvode_bdf";
+  std::string mesh = "split: six, order: 1", formulation = "auto";
 };
 
 BuiltTestScene scene_of(const Flight& f) {
   return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [1, 1, 1], cells: [{0}, {0}, {0}], split: six, order: 1}}
+mesh: {{type: box, size: [1, 1, 1], cells: [{0}, {0}, {0}], {10}}}
 materials: {{m: {{type: orthotropic_stable, density: 1, young: {1}, nu: 0.3}}}}
-regions: {{body: {{material: m, axes: {2}}}}}
+regions: {{body: {{material: m, formulation: {11}, axes: {2}}}}}
 elasticity: {{corotation: {3}}}
 initial: {{spin: {4}, deformation_gradient: [[{5}, 0, 0], [0, 1, 0], [0, 0, 1]]}}
 integrator: {{type: {6}, rtol: {7}, max_order: {8}}}
 time: {{end: {9}}}
 )",
                                     f.cells, f.young, kTurnedAxes, f.corotation, f.spin, f.stretch, f.integrator,
-                                    f.rtol, f.max_order, f.end));
+                                    f.rtol, f.max_order, f.end, f.mesh, f.formulation));
 }
 
 // Largest changes over the run: energy relative to the initial one; angular momentum relative to
@@ -76,6 +77,22 @@ TEST(FreeFlight, DriftsOfEnergyAndAngularMomentumFallWithTheTolerance) {
 
 TEST(FreeFlight, KeepsLinearMomentumToRoundOffAtAnyTolerance) {
   EXPECT_LE(drift({.spin = "[0.5, 1, 2]", .rtol = 1e-3, .max_order = 2}).linear, 1e-12);
+}
+
+class FreeFlightOf : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Elements, FreeFlightOf,
+                         testing::Values("elements: hexahedra, order: 1", "elements: wedges, order: 1",
+                                         "elements: hexahedra", "elements: hexahedra_27", "elements: wedges",
+                                         "elements: wedges_18"));
+
+TEST_P(FreeFlightOf, HexahedraOrWedgesKeepsEnergyAndMomenta) {
+  for (const char* formulation : {"displacement", "mixed"}) {
+    const Drift d =
+        drift({.spin = "[0.5, 1, 2]", .end = 3, .cells = 1, .mesh = GetParam(), .formulation = formulation}, 20);
+    EXPECT_LE(d.angular, 1e-5) << formulation;
+    EXPECT_LE(d.energy, 1e-3) << formulation;
+    EXPECT_LE(d.linear, 1e-12) << formulation;
+  }
 }
 
 // Angular momentum is conserved to 100 rtol.
