@@ -60,7 +60,8 @@ def add_body(paint, surface, points, values, colouring, camera, budget):
     nearer = _nearer(surface, front, camera.depth(points), split.n) + 0.15 * size
     for e, rows in enumerate(split.edges):
         owner, start, end = rows.T
-        for chosen, darkness, width in ((~outline[:, e] & surface.of_cell[front, e], 0.16, 0.35), (outline[:, e], 0.72, 0.9)):
+        inner = ~outline[:, e] & surface.of_cell[front, e]
+        for chosen, darkness, width in ((inner, 0.16, 0.35), (outline[:, e], 0.72, 0.9)):
             if width < 0.5 and len(surface.faces) > FEW_FACES:
                 continue
             ink = (1 - darkness) * rgb[chosen][:, owner] + darkness * INK
@@ -69,9 +70,9 @@ def add_body(paint, surface, points, values, colouring, camera, budget):
 
 
 def _nearer(surface, front, depth, n):
-    """How far the lines (v,3) of the visible faces are moved towards the eye: as far as the small triangle behind the
-    line, of the neighbour, can be nearer; add_body() adds a little. Otherwise it would be drawn later and cover half of the line's width. A line
-    that is moved farther would show through a thin part in front of it."""
+    """How far the edges (v,3) of the visible faces are moved towards the eye: as far as the small triangle of the
+    neighbour at the edge can be nearer than the edge. Otherwise this triangle would be drawn later and cover half of
+    the line's width. An edge that is moved farther would show through a thin part in front of it."""
     start, end = surface.faces, np.roll(surface.faces, -1, axis=1)
     opposite = surface.faces[surface.neighbour].sum(axis=-1) - start - end
     is_seen = (surface.neighbour >= 0) & front[surface.neighbour]
