@@ -15,7 +15,7 @@ void AbaqusElementReader::read(const AbaqusKeyword& keyword) {
     if (type.starts_with("C3D8R") || type.starts_with("C3D8I"))
       file_.draft.warn(
           lines_.place(),
-          "elements of type {} are computed as C3D8, with full integration: they are too stiff in bending; "
+          "elements of type {} are read as C3D8, with full integration: linear ones are too stiff in bending; "
           "`order: 2` makes them quadratic",
           type);
     while (!lines_.at_keyword()) read_element(*shape, type, set);

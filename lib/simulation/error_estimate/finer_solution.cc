@@ -40,8 +40,8 @@ Matrices matrices(const FemModel& whole, const State& about, double shift, Tange
 }
 
 // Solves (K + s M) x = b for the finer model at a coarse state; s is the shift, and K the tangent of this kind. If the
-// elements are not nested, the matrix is factorised: the two-level iteration, whose accuracy is relative to an energy
-// that contains that of the lifted displacement, would stop too early (energy_of_lift()).
+// elements are not nested, the matrix is factorised. The accuracy of the two-level iteration is relative to the energy
+// of x, which then contains energy_of_lift(): the iteration would stop too early.
 class FinerSystem {
  public:
   FinerSystem(const FinerModel& finer, const State& coarse, double shift, TangentKind kind)

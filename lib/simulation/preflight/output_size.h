@@ -13,7 +13,7 @@ namespace orthodyn {
 constexpr double kMaxOutputsWithoutYes = 1e6;
 
 struct OutputSize {
-  double frames = 0;       // number; in statics the least number of load steps, in buckling that of shapes
+  double frames = 0;       // number of frames; in statics at least one per load step, in buckling one per shape
   double frame_bytes = 0;  // of each frame
   double rows = 0;         // in each of energy.csv, momentum.csv and probes.csv; 0: one per step, number unknown
   double row_bytes = 0;    // of the three tables together
