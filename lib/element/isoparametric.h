@@ -14,7 +14,6 @@
 // integrate det J exactly, and the consistent mass where they integrate N_a N_b det J.
 #pragma once
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "lib/element/element.h"
@@ -87,7 +86,7 @@ struct Isoparametric : R {
     for (int a = 0; a < kNodes; ++a) at_nodes.row(a) = polynomials(R::nodes().col(a)).transpose();
     for (Eigen::Index p = 0; p < n; ++p)
       at_points.row(p) = polynomials(points[static_cast<std::size_t>(p)].place).transpose();
-    return at_nodes * at_points.inverse();
+    return extrapolation_matrix(at_nodes, at_points);
   }
 
   // own_rule(): the points of R. part_of_rule(): `rule` mapped to begin < t < end, t the third natural coordinate in

@@ -1,5 +1,6 @@
 #include "lib/element/quadrature.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -129,6 +130,10 @@ std::vector<QuadraturePoint> wedge_points(const std::vector<TrianglePoint>& tria
   for (const auto& [t, w_t] : line)
     for (const auto& [L, share] : triangle) points.push_back({{L[1], L[2], t}, 0.5 * share * w_t});
   return points;
+}
+
+Eigen::MatrixXd extrapolation_matrix(const Eigen::MatrixXd& at_nodes, const Eigen::MatrixXd& at_points) {
+  return at_nodes * at_points.inverse();
 }
 
 }  // namespace orthodyn

@@ -54,6 +54,10 @@ struct IntegrationRule {
   Eigen::MatrixXd to_nodes;  // nodes x points: extrapolates values at the points to `nodes`
 };
 
+// The matrix (nodes x points) that extrapolates values at integration points to the nodes. `at_nodes`, `at_points`:
+// values of as many polynomials as there are points, one row per node or point, one column per polynomial.
+Eigen::MatrixXd extrapolation_matrix(const Eigen::MatrixXd& at_nodes, const Eigen::MatrixXd& at_points);
+
 // Points (x, y, 0) of [-1, 1]^2, exact for polynomials of degree 5 in each coordinate. Sum of weights 4.
 const std::array<QuadraturePoint, 9>& square_points_of_degree_5();
 

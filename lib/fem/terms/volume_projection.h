@@ -5,7 +5,6 @@
 // t_i^2.
 #pragma once
 
-#include <Eigen/QR>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -14,6 +13,10 @@
 #include "lib/fem/element_type.h"
 
 namespace orthodyn {
+
+// Values of psi_i (m^-3/2) at the integration points: one row per point, one column per polynomial. `terms`: 1 for the
+// constant, 4 for linear polynomials. `places`: the points, m. `V`: their volumes, m^3.
+Eigen::MatrixXd orthonormal_polynomials(int terms, const Eigen::Matrix3Xd& places, const Vector& V);
 
 inline namespace ORTHODYN_LANES {
 
@@ -32,7 +35,8 @@ class VolumeProjection {
     for (int k = 0; k < elements.num_batches() * Batch::kLanes; ++k) {
       const int element = std::min(k, elements.size() - 1);  // lanes of padding repeat the last element
       const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(element)]);
-      const Eigen::MatrixXd psi = polynomials(type.points(mesh.positions(cell)), volumes(elements, element));
+      const Eigen::MatrixXd psi =
+          orthonormal_polynomials(kTerms, type.points(mesh.positions(cell)), volumes(elements, element));
       for (int p = 0; p < num_points_; ++p)
         for (int i = 0; i < kTerms; ++i)
           values_[index(k / Batch::kLanes, p, i)][static_cast<std::size_t>(k % Batch::kLanes)] = psi(p, i);
@@ -63,20 +67,6 @@ class VolumeProjection {
     Vector V(elements.num_points());
     for (int p = 0; p < elements.num_points(); ++p) V[p] = elements.volume(k, p);
     return V;
-  }
-
-  // Orthonormalises 1, x, y, z with the weights V by QR: one row per point, one column per polynomial.
-  static Eigen::MatrixXd polynomials(const Eigen::Matrix3Xd& places, const Vector& V) {
-    const Vector root = V.cwiseSqrt();
-    Eigen::MatrixXd weighted(V.size(), kTerms);
-    weighted.col(0) = root;
-    if constexpr (kTerms == 4) {
-      const Vec3 centre = places * V / V.sum();
-      weighted.template rightCols<3>() = root.asDiagonal() * (places.colwise() - centre).transpose();
-    }
-    const Eigen::MatrixXd orthonormal =
-        weighted.householderQr().householderQ() * Eigen::MatrixXd::Identity(V.size(), kTerms);
-    return root.cwiseInverse().asDiagonal() * orthonormal;
   }
 
   std::size_t index(int batch, int point, int i) const {
