@@ -34,7 +34,7 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
     return s;
   }
   static MethodFacts facts() {
-    return method_facts("1-12, variable", "A-stable at order 1-2, bounded step above (stiff parts force short steps)",
+    return method_facts("1-12, variable", "A-stable at order 1-2; at higher orders stiff parts force short steps",
                         "linear invariants (momentum)", "Hindmarsh et al., ACM TOMS 31, 2005; Byrne & Hindmarsh 1975");
   }
   bool runs_on_ranks() const override { return true; }

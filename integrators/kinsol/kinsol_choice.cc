@@ -33,9 +33,11 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
   }
 };
 
-const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol",
-    "KINSOL: Newton's method with predicted stresses (long steps of slender bodies), factored in each iteration.");
+const bool kinsol_registered =
+    Registry<EquilibriumChoice>::add<KinsolChoice>("kinsol",
+                                                   "KINSOL: Newton's method with stresses as independent unknowns, "
+                                                   "which allows long load steps of slender bodies; one "
+                                                   "factorisation per iteration.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

@@ -12,9 +12,10 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
     using C = BatheChoice;
     static const auto s =
         NewtonOptions::spec_for<C>()
-            .key("rho_inf", &C::rho_inf,
-                 "Factor by which a step reduces the fastest oscillations: 0 removes them, 1 keeps them.",
-                 {.range = {0, 1}})
+            .key(
+                "rho_inf", &C::rho_inf,
+                "Amplitude of the fastest oscillations after a step, relative to before: 0 removes them, 1 keeps them.",
+                {.range = {0, 1}})
             .key("splitting", &C::splitting, "End of the trapezoidal part, as a fraction of the step.",
                  {.range = {0.01, 0.99}});
     return s;
@@ -32,7 +33,7 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
 };
 
 const bool bathe_registered = Registry<IntegratorChoice>::add<BatheChoice>(
-    "bathe", "Bathe's method of two parts with chosen damping of fast modes; adaptive or with a fixed step.");
+    "bathe", "Bathe's method of two substeps with adjustable damping of fast modes; adaptive or with a fixed step.");
 
 }  // namespace
 }  // namespace orthodyn

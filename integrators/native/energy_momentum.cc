@@ -180,7 +180,7 @@ class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public
   }
   static MethodFacts facts() {
     return method_facts(
-        "2", "A-stable for linear models; damps nothing by itself", "energy, linear and angular momentum, to round-off",
+        "2", "A-stable for linear models; no numerical damping", "energy, linear and angular momentum, to round-off",
         "Simo & Tarnow, ZAMP 43, 1992; Gonzalez, CMAME 190, 2000; error estimate: difference to the trapezoidal rule");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {

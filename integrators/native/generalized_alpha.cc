@@ -18,7 +18,8 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
     using C = GeneralizedAlphaChoice;
     static const auto s = NewtonOptions::spec_for<C>().key(
         "rho_inf", &C::rho_inf,
-        "Factor by which a step reduces the fastest oscillations: 0 removes them, 1 keeps them.", {.range = {0, 1}});
+        "Amplitude of the fastest oscillations after a step, relative to before: 0 removes them, 1 keeps them.",
+        {.range = {0, 1}});
     return s;
   }
   static MethodFacts facts() {
@@ -33,7 +34,7 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
 
 const bool generalized_alpha_registered = Registry<IntegratorChoice>::add<GeneralizedAlphaChoice>(
     "generalized_alpha",
-    "The generalised-alpha method with chosen damping of fast modes; adaptive or with a fixed step.");
+    "The generalised-alpha method with adjustable damping of fast modes; adaptive or with a fixed step.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -3,8 +3,9 @@
 //
 //   q = Phi r + S (f - M Phi Phi^T f),   S = (K + s M)^-1.
 //
-// K + s M is factored once. s = 0 if the body is held; otherwise s is about a millionth of the first lambda left out.
-// The correction is M-orthogonal to the modes.
+// K + s M is factored once. s = 0 if the body is held; otherwise s is at least a millionth of the lowest lambda that
+// the basis leaves out, and larger if the factorisation needs it. The correction is M-orthogonal to the modes.
+//
 // Source: Hughes, The Finite Element Method, 1987, 7.2 (modes); Cornwell, Craig & Johnson, Earthquake Eng. Struct. Dyn.
 // 11, 1983 (mode acceleration).
 #pragma once
@@ -27,7 +28,7 @@ class ModalBasis {
  public:
   // `model` must outlive this object. Throws ConfigError if the model is nonlinear or unstable at rest, if its damping
   // couples the modes, if a rigid motion would be left out, or if no mode is within the limit; RunError if the modes
-  // cannot be found.
+  // cannot be computed or the stiffness cannot be factored.
   ModalBasis(const Model& model, const ModeLimit& limit);
 
   const Vector& lambda() const { return lambda_; }    // 1/s^2, ascending, at least 0

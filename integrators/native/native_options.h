@@ -45,9 +45,11 @@ Spec<T> LinearOptions::spec_for() {
 
 template <class T>
 Spec<T> NewtonOptions::spec_for() {
-  auto spec = LinearOptions::spec_for<T>().key("newton", &NewtonOptions::newton,
-                                               "When the tangent is recomputed: when that costs less than further "
-                                               "iterations with the old one, at each step, or at each iteration.");
+  auto spec =
+      LinearOptions::spec_for<T>().key("newton", &NewtonOptions::newton,
+                                       "When the tangent is recomputed. lazy: when this costs less than further "
+                                       "iterations with the old tangent; modified: at each step; full: at each "
+                                       "iteration.");
   NewtonLimits::add_to(spec, "rtol, with a fixed step too", "stage");
   return spec;
 }

@@ -1,5 +1,5 @@
-// Shape functions on the square (D = 2) and the cube (D = 3) [-1, 1]^D, of the node at c, whose coordinates are -1, 0
-// or 1 (Zienkiewicz & Taylor 2000, vol. 1, ch. 8):
+// Shape functions on the square (D = 2) and the cube (D = 3) [-1, 1]^D, with the coordinates x. Each function belongs
+// to the node at c, whose coordinates are -1, 0 or 1 (Zienkiewicz & Taylor 2000, vol. 1, ch. 8):
 //
 //   multilinear  N = prod_d (1 + c_d x_d)/2; nodes at corners only;
 //   Lagrange     N = prod_d n(c_d, x_d)  with  n(-1, x) = x (x - 1)/2,  n(0, x) = 1 - x^2,  n(1, x) = x (x + 1)/2;
@@ -58,7 +58,7 @@ CubeFunction<D> serendipity(const CubeCoordinates<D>& c, const CubeCoordinates<D
   return {N.value * factor, N.slopes * factor + N.value * c};
 }
 
-// Corners of the cube as a hexahedron numbers them, one per column.
+// Corners of the cube in the order of a hexahedron's nodes, one per column.
 inline Eigen::Matrix<double, 3, 8> cube_corners() {
   Eigen::Matrix<double, 3, 8> all;
   all << -1, 1, 1, -1, -1, 1, 1, -1,  //

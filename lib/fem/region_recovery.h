@@ -17,7 +17,9 @@ using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 // relative to their means, so that constants are exact even with too few points. Coordinates are along the principal
 // axes of the points and scaled by their spread, so that patches of thin bodies are well conditioned.
 struct PatchFit {
-  Vec3 centre;              // origin of the polynomial, m: the corner, or the mean of points that lack full rank
+  // Origin of the polynomial, m: the corner; or the mean of the points if they do not determine all coefficients, and
+  // for hexahedra of 20 nodes with 8 points.
+  Vec3 centre;
   Mat3 to_patch;            // maps a place relative to the centre to patch coordinates, 1/m
   Vector means;             // of the monomials
   Eigen::MatrixXd inverse;  // (pseudo-)inverse of the normal equations
@@ -29,8 +31,9 @@ class RegionRecovery {
   // `cells`: the region's elements, by their indices in the mesh, all of the given type.
   RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, const ElementType& type);
 
-  // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node; for a ply at
-  // the nodes of ElementType::part(). `at_points`: one row per point.
+  // The region's nodes (indices in the mesh), and the values recovered at these nodes, one row per node. For a ply,
+  // which fills only a part of each cell, the values are at the node positions of ElementType::part(). `at_points`: one
+  // row per point.
   const std::vector<int>& nodes() const { return nodes_; }
   SixColumns at_nodes(const SixColumns& at_points) const;
 
@@ -39,7 +42,7 @@ class RegionRecovery {
   using AtPoint = std::function<Vec6(int k, int p)>;
   Vec6 at_node(int row, const AtPoint& at_point) const;
 
-  // Whether the nodes lie in the part of the cells that the elements integrate; parallel to nodes().
+  // Whether each node lies in the part of its cells over which the elements integrate; parallel to nodes().
   const std::vector<char>& inside() const { return inside_; }
 
   // Nodes of each element, as indices into nodes().

@@ -3,8 +3,8 @@
 // Smith, Bjorstad & Gropp 1996, Domain Decomposition, ch. 2). Several right-hand sides are solved together, which reads
 // A once for four of them.
 //
-// Each iteration increases the energy x^T A x (Hestenes & Stiefel 1952). The iteration stops when the last gains are
-// small. The energy found is a lower bound of the exact energy.
+// Each iteration increases the energy x^T A x (Hestenes & Stiefel 1952). The iteration stops when the last four
+// increases together are at most `accuracy` times the energy. This energy is a lower bound of the exact energy.
 #pragma once
 
 #include <functional>

@@ -65,16 +65,15 @@ class Anisotropic : public Material {
     using A = Anisotropic;
     Spec<A> s;
     s.key("density", &A::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive});
-    s.key(
-        "voigt_order", &A::order_,
-        "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12, Abaqus (abaqus) 12, 13, 23.",
-        {.required = true});
+    s.key("voigt_order", &A::order_,
+          "Meaning of the indices 1 to 6: in most tables 4, 5, 6 are 23, 13, 12, in Abaqus (abaqus) 12, 13, 23.",
+          {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
       s.key(e.name, e.value,
-            fmt::format("Stress {} for a unit of strain {} (shear strain: engineering){}.", e.row() + 1, e.column() + 1,
-                        needed ? "" : "; 0 in orthotropic materials"),
+            fmt::format("Stress component {} per unit of strain component {} (engineering shear strain){}.",
+                        e.row() + 1, e.column() + 1, needed ? "" : "; 0 in orthotropic materials"),
             {.required = needed, .unit = "Pa", .range = e.diagonal() ? kPositive : Range{}});
     }
     s.key("repair", &A::repair_,
@@ -126,7 +125,8 @@ class Anisotropic : public Material {
 };
 
 const bool anisotropic_registered = Registry<Material>::add<Anisotropic>(
-    "anisotropic", "All 21 constants c11 to c66 of the stiffness; those of no symmetry default to 0.");
+    "anisotropic",
+    "All 21 constants c11 to c66 of the stiffness; those that are 0 in orthotropic materials default to 0.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -17,9 +17,9 @@ class OrthotropicStable : public Material {
             .key("density", &O::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
             .key("young", &O::young_, "Young's moduli E1, E2, E3 along the material axes.",
                  {.required = true, .unit = "Pa", .range = kPositive})
-            .key("nu", &O::nu_, "The family's parameter; Poisson's ratio where two moduli are equal.",
+            .key("nu", &O::nu_, "Sets Poisson's ratios nu_ij = nu sqrt(Ei/Ej).",
                  {.required = true, .range = {-1, 0.5, true, true}})
-            .key("shear_factor", &O::shear_factor_, "Multiplies the family's shear moduli sqrt(Ei Ej)/(2 (1 + nu)).",
+            .key("shear_factor", &O::shear_factor_, "Factor of the shear moduli Gij = sqrt(Ei Ej)/(2 (1 + nu)).",
                  {.range = kPositive})
             .key("strength", &O::strength_, kStrengthSentence)
             .check([](const O& o, const Config& config) {

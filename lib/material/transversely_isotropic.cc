@@ -30,7 +30,8 @@ class TransverselyIsotropic : public Material {
             .key("nu_transverse", &M::nu_transverse_,
                  "nu23 = nu32: contraction across when stretched across; sets G23 = E2/(2 (1 + nu23)).",
                  {.required = true})
-            .key("shear_axial", &M::shear_axial_, "Shear modulus G12 = G13 of the planes that hold the fibre.", modulus)
+            .key("shear_axial", &M::shear_axial_, "Shear modulus G12 = G13 of the planes that contain the fibre.",
+                 modulus)
             .key("strength", &M::strength_, kStrengthSentence)
             .key("repair", &M::repair_,
                  "What to do with an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor "
@@ -97,7 +98,8 @@ class TransverselyIsotropic : public Material {
 };
 
 const bool transversely_isotropic_registered = Registry<Material>::add<TransverselyIsotropic>(
-    "transversely_isotropic", "A fibre along axis 1 and the same in all directions across it: five constants.");
+    "transversely_isotropic",
+    "Fibres along axis 1, with equal properties in all directions across them: five constants.");
 
 }  // namespace
 }  // namespace orthodyn

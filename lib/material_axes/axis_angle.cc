@@ -1,4 +1,4 @@
-// `axes: {type: axis_angle}`: x, y, z rotated about a direction, the same in all elements.
+// `axes: {type: axis_angle}`: the coordinate axes rotated about a direction, the same in all elements.
 #include "lib/material_axes/axes_source.h"
 
 namespace orthodyn {
@@ -30,7 +30,7 @@ class AxisAngle : public AxesSource {
 };
 
 const bool axis_angle_registered =
-    Registry<AxesSource>::add<AxisAngle>("axis_angle", "x, y, z rotated about a direction.");
+    Registry<AxesSource>::add<AxisAngle>("axis_angle", "The coordinate axes rotated about a direction.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -57,8 +57,8 @@ struct CellData {
   std::vector<double> values = {};
 };
 
-// What becomes of the hexahedra and wedges of a file. Pyramids, and elements that collapse to fewer corners, are always
-// split, and with them all elements of the file, so that faces match.
+// Treatment of the hexahedra and wedges of a file. If the file has pyramids, or elements that collapse to fewer
+// corners, all its elements are split, so that faces match.
 enum class FileCells {
   keep,
   split,  // into tetrahedra

@@ -22,7 +22,7 @@ const Spec<PlaneSelection>& PlaneSelection::spec() {
   static const auto s =
       Spec<PlaneSelection>()
           .key("point", &PlaneSelection::point, "A point of the plane.", {.required = true, .unit = "m"})
-          .key("normal", &PlaneSelection::normal, "Its normal, of any length.", {.required = true})
+          .key("normal", &PlaneSelection::normal, "Normal of the plane, of any length.", {.required = true})
           .key("tolerance", &PlaneSelection::tolerance,
                "Largest distance of selected nodes from the plane; default 1e-6 of the mesh's diagonal.",
                {.unit = "m", .range = kNonNegative})

@@ -1,4 +1,4 @@
-// Implements IntegratorChoice::settings() and with() by the names of the options' members:
+// Implements IntegratorChoice::settings() and with(). A setting is the member of the same name in the options:
 //
 //   struct Options { double rtol = 1e-4; std::optional<double> h_max; };
 //   class Choice : public SettableChoice<Choice>, public Options { ... };

@@ -19,10 +19,10 @@ struct AbaqusSceneOptions {
   FileUnits units = FileUnits::si;
 };
 
-// If all materials of the file can be used, the scene has no sections `materials` and `regions`; a run then reads both
-// from the mesh file. Otherwise the scene lists the materials that can be converted, and comments name the others with
-// the reason. A static scene gets `time` (the end of the first step) if an *AMPLITUDE became a factor. `path` is read;
-// the scene refers to it as `file`. Throws ConfigError as read_abaqus() does.
+// Converts the Abaqus file at `path`; the scene refers to this file as `file`. If all its materials can be used, the
+// scene has no sections `materials` and `regions`; a run then reads both from the mesh file. Otherwise the scene lists
+// the materials that can be converted, and comments name the others with the reason. A static scene gets `time` (the
+// end of the first step) if an *AMPLITUDE became a factor. Throws ConfigError as read_abaqus() does.
 AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options = {});
 
 }  // namespace orthodyn

@@ -17,10 +17,11 @@ struct EnumNames<WarpedTangent> {
 const Spec<Elasticity>& Elasticity::spec() {
   static const auto s =
       Spec<Elasticity>()
-          .key("kinematics", &Elasticity::kinematics,
-               "corotational: large rotations. linear: small strain with a constant K. auto: linear for as long as "
-               "that is accurate enough, otherwise corotational from the start, region by region; the summary says "
-               "which and why.")
+          .key(
+              "kinematics", &Elasticity::kinematics,
+              "corotational: large rotations. linear: small strain with a constant K. auto, for each region: linear if "
+              "this is accurate enough for the whole run, otherwise corotational from the start; the summary gives "
+              "the choice and the reason.")
           .key("linear_error", &Elasticity::linear_error,
                "With kinematics: auto, the allowed error of displacements by linear kinematics, relative to the "
                "largest displacement; default ten times integrator.rtol, or 1e-3 without rtol.",

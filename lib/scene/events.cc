@@ -29,7 +29,7 @@ const Spec<EventSpec>& EventSpec::spec() {
                {.required = true, .unit = kUnitOfQuantity})
           .key("direction", &EventSpec::direction, "Direction of the crossings that count.")
           .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run also ends there.")
-          .key("name", &EventSpec::name, "Its name in events.csv; default the quantity.")
+          .key("name", &EventSpec::name, "Name of the event in events.csv; default the quantity.")
           .check([](const EventSpec& e, const Config& config) {
             if (e.name && e.name->find_first_of(",\"\n") != std::string::npos)
               config.at("name").fail("is written to a CSV file: it must not contain commas, quotes or line breaks");

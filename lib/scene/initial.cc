@@ -26,7 +26,7 @@ const Spec<Initial>& Initial::spec() {
                "Uniform F about `center`; a singular F flattens the body, a negative determinant mirrors it.")
           .key("displacement_field", &Initial::displacement_field,
                "Displacement added to the uniform one: three formulas of the rest position.", {.unit = "m"})
-          .key("noise", &Initial::noise, "Random offsets.");
+          .key("noise", &Initial::noise, "Random displacements of the free coordinates.");
   return s;
 }
 

@@ -44,13 +44,14 @@ const Spec<Region>& Region::spec() {
                             .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.")
                             .key("integration", &Region::integration,
                                  "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
-                                 "bodies. full: 14 points, for rows that are one cell wide and high, which have shapes "
-                                 "without stiffness (hourglass) with 8. auto: full if the region has such rows.")
+                                 "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "
+                                 "points such rows have hourglass modes (shapes without stiffness). auto: full if the "
+                                 "region has such rows.")
                             .key("formulation", &Region::formulation,
                                  "mixed: with a separate pressure in each element, accurate for nearly incompressible "
                                  "materials, whose stresses are wrong with displacements alone; not for linear "
-                                 "tetrahedra and elasticity.corotation: warped. auto: mixed where the material asks "
-                                 "for it.")
+                                 "tetrahedra and elasticity.corotation: warped. auto: mixed for nearly incompressible "
+                                 "materials.")
                             .check([](const Region& region, const Config& config) {
                               if (region.material.empty() && region.layup.empty())
                                 config.fail("key 'material' is missing: give a material or a layup");

@@ -51,8 +51,8 @@ const Spec<Statics>& Statics::spec() {
 }
 
 const Spec<Buckling>& Buckling::spec() {
-  static const auto s = Spec<Buckling>().key("count", &Buckling::count,
-                                             "How many critical load factors, the lowest first.", {.range = {1, 1000}});
+  static const auto s = Spec<Buckling>().key(
+      "count", &Buckling::count, "Number of critical load factors, counted from the lowest.", {.range = {1, 1000}});
   return s;
 }
 
@@ -63,9 +63,9 @@ const Spec<Scene>& Scene::spec() {
           .key("analysis", &Scene::analysis,
                "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
                "buckling: linear buckling loads and shapes of the undeformed body.")
-          .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
+          .key("mesh", &Scene::mesh, "The mesh: a generated shape, or a mesh file.", {.required = true})
           .key("materials", &Scene::materials,
-               "Materials by name. Left out, those of the mesh file (.veg, .inp) are used, with the regions' axes.")
+               "Materials by name. Default: the materials and the axes of the regions from the mesh file (.veg, .inp).")
           .key("regions", &Scene::regions,
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only material "
                "everywhere.")

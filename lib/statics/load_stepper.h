@@ -111,8 +111,8 @@ Spec<T> LoadStepping::spec_for() {
       .key("first_step", &L::first_step, "First step of the load factor, which grows from 0 to 1.", {.range = kShare})
       .key("max_step", &L::max_step, "Largest step of the load factor.", {.range = kShare})
       .key("min_step", &L::min_step,
-           "Smallest step along the path of equilibria, in load factors at its start, and at most a 64th of the first "
-           "step; the analysis stops if a smaller one is needed.",
+           "Smallest step: the arc length along the path of equilibria that this change of the load factor has at the "
+           "start of the path, at most a 64th of the first step. The analysis stops if it needs a smaller step.",
            {.range = kShare})
       .key("max_steps", &L::max_steps, "Number of load steps after which the analysis stops.", {.range = {1}})
       .key("at_limit", &L::at_limit,

@@ -1,4 +1,4 @@
-// The beam for benchmarks of kernels and solvers, bent and twisted to strains of a few per mille.
+// The beam for benchmarks of kernels and solvers, bent and twisted to strains of a few per cent.
 #pragma once
 
 #include "lib/scene/build.h"
@@ -7,13 +7,13 @@ namespace orthodyn::bench {
 
 struct Beam {
   bool damped = false;
-  int order = 1;                                // of the elements
+  int order = 1;                                // order of the elements
   std::string material = "orthotropic_stable";  // or isotropic
-  std::string elements = "tetrahedra";          // of a box
+  std::string elements = "tetrahedra";          // `elements` of a box mesh
   std::string formulation = "auto";
 };
 
-// `across` cells over height and width, 5 `across` cells along the beam.
+// A mesh of `across` cells over height and width and 5 * `across` cells along the beam.
 class BentBeam {
  public:
   BentBeam(const Beam& beam, int across);

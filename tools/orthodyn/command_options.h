@@ -1,5 +1,6 @@
-// Declares a command's options. Parsing stores the value of each option in a variable, which must live until then. A
-// declaration that names an unknown option (in `excludes` or `needs`) throws when the program starts.
+// Declares a command's options. Each option has a variable, in which parsing stores the option's value; the variable
+// must live until the command line is parsed. A declaration that names an unknown option (in `excludes` or `needs`)
+// throws when the program starts.
 #pragma once
 
 #include <string>
@@ -20,7 +21,8 @@ class CommandOption {
   CommandOption& required();
   // Placeholder of the value in `--help`: "FILE.yaml". Default "TEXT", "INT" or "FLOAT".
   CommandOption& type(const std::string& name);
-  // Forbids this option together with `other`, or without it. `other`: name of an option declared before.
+  // excludes() forbids this option together with `other`, needs() forbids it without `other`. `other`: name of an
+  // option declared before.
   CommandOption& excludes(const std::string& other);
   CommandOption& needs(const std::string& other);
   CommandOption& range(int least, int most);

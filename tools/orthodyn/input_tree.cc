@@ -60,7 +60,7 @@ const std::vector<InputKind>& input_kinds() {
        Scene::spec().keys()},
       {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
       {"sweep", "Metrics of a scene for varied parameters, for `orthodyn sweep`.", Sweep::spec().keys()},
-      {"stability", "Hard cases x integrators, graded, for `orthodyn stability`.", Stability::spec().keys()},
+      {"stability", "Grades of integrators on hard cases, for `orthodyn stability`.", Stability::spec().keys()},
   };
   return all;
 }

@@ -89,7 +89,7 @@ void list_terms() {
   print_entry("motions.<n>.rotation", "A rotation of any size about an axis.", Rotation::spec().keys());
   list_registry<TermChoice>();
   print_entry("initial", "The state at the start.", Initial::spec().keys());
-  print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());
+  print_entry("initial.noise", "Random displacements of the free coordinates.", Noise::spec().keys());
 }
 
 void list_scene() {

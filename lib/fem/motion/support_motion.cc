@@ -7,7 +7,7 @@ const Spec<Rotation>& Rotation::spec() {
       Spec<Rotation>()
           .key("point", &Rotation::point, "A point on the axis, at rest; a translation moves it as well.",
                {.unit = "m"})
-          .key("axis", &Rotation::axis, "Its direction, of any length.", {.required = true})
+          .key("axis", &Rotation::axis, "Direction of the rotation axis, of any length.", {.required = true})
           .key("angle", &Rotation::angle, "Angle at factor 1, by the right-hand rule; more than a turn is possible.",
                {.required = true, .unit = "rad"})
           .check([](const Rotation& r, const Config& config) {

@@ -139,7 +139,8 @@ class GroundContactChoice : public TermChoice {
 };
 
 const bool ground_contact_registered = Registry<TermChoice>::add<GroundContactChoice>(
-    "ground_contact", "A rigid plane that pushes back what is below it, by a smooth penalty; no friction, no damping.");
+    "ground_contact",
+    "A rigid plane that pushes back the parts of the body below it, by a smooth penalty; no friction, no damping.");
 const bool ground_renamed = Registry<TermChoice>::rename("ground", "ground_contact");
 
 }  // namespace

@@ -19,9 +19,10 @@ class Expression : public TimeFunction {
             .key("formula", &Expression::formula_, "The factor.", {.required = true})
             .key("kinks", &Expression::kinks_, "Times where the formula is not smooth; integrators restart there.",
                  {.unit = "s"})
-            .key("peak", &Expression::peak_,
-                 "Largest magnitude, for default error scales; default: the largest at 100,000 times of the span.",
-                 {.range = kNonNegative})
+            .key(
+                "peak", &Expression::peak_,
+                "Largest magnitude, for default error scales; default: the largest of 100,000 values in the time span.",
+                {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
                  "Step of the finite differences for rate and curvature: at most 1/60 of the shortest period; default: "
                  "chosen from the formula's course over the time span.",

@@ -16,8 +16,8 @@ class Rise : public TimeFunction {
   template <class T>
   static Spec<T> rise_spec() {
     return Spec<T>()
-        .key("start", &T::start_, "Zero until then.", {.unit = "s"})
-        .key("end", &T::end_, "Constant from then on.", {.required = true, .unit = "s"})
+        .key("start", &T::start_, "Time until which the factor is zero.", {.unit = "s"})
+        .key("end", &T::end_, "Time from which the factor is constant.", {.required = true, .unit = "s"})
         .key("value", &T::value_, "The factor reached at the end.")
         .check([](const T& rise, const Config& c) {
           if (!(rise.end_ > rise.start_)) c.fail("'end' must be after 'start'");

@@ -18,17 +18,18 @@ class TimeFunction {
   virtual bool constant() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }  // times at which the function is not smooth, s
   virtual bool has_continuous_rate() const { return kinks().empty(); }
-  // A copy whose rate and curvature are accurate from start to end (s); null if those of this function already are.
+  // Returns a copy whose rate and curvature are accurate from start to end (s), or null if this function's rate and
+  // curvature already are.
   virtual std::shared_ptr<const TimeFunction> over(double /*start*/, double /*end*/) const { return nullptr; }
   // Step limits between the kinks, from start to end (s).
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
-  // Largest magnitude from start to end, or at any time. Used for default error scales.
+  // Largest magnitude from start to end (s); some types return the largest at any time. Used for default error scales.
   virtual double peak(double start, double end) const = 0;
   // Equivalent duration (s), approximately: the integral of the magnitude from start to end divided by peak().
   double seconds_at_peak(double start, double end) const;
 };
 
-// Those of the given times that lie in the open interval (start, end).
+// The times in `all` that lie in the open interval (start, end).
 std::vector<double> times_between(const std::vector<double>& all, double start, double end);
 
 }  // namespace orthodyn

@@ -37,21 +37,22 @@ struct AbaqusKeyword {
 // The text in capitals and without blanks.
 std::string abaqus_word(std::string_view text);
 
-// A field as a finite number, possibly with Fortran's exponent D. Zero if the field is empty; nullopt if it is not a
+// A field as a number, possibly with Fortran's exponent D. Zero if the field is empty; nullopt if it is not a finite
 // number.
 std::optional<double> abaqus_number(std::string_view field);
 
 // Whether a field is a name (begins with a letter or _), not a number.
 bool abaqus_is_name(std::string_view field);
 
-// Checks the parameters of a keyword against the table in abaqus_parameters.cc: each is used, harmless or unsupported.
-// Calls `fail` with a message for unsupported and unknown ones. Returns false for keywords that are skipped, which may
-// have any parameters.
+// Checks the parameters of a keyword against the table in abaqus_parameters.cc, where each parameter is used, harmless
+// or unsupported. Calls `fail` with a message for unsupported and unknown parameters. Returns false for keywords that
+// are skipped; these may have any parameters.
 bool check_abaqus_parameters(const AbaqusKeyword& keyword, const std::function<void(const std::string&)>& fail);
 
 class AbaqusLines {
  public:
-  // `text` is the content of the draft's first file; included files are added to the draft. Both must outlive this.
+  // `text` is the content of the draft's first file; included files are added to the draft. Both arguments must
+  // outlive this object.
   AbaqusLines(MeshDraft& draft, std::string_view text);
 
   // True if the next line is a keyword or the end of the input.
@@ -74,11 +75,11 @@ class AbaqusLines {
   // missing. Throws ConfigError.
   std::string choice(const AbaqusKeyword& keyword, const char* parameter, const std::vector<std::string>& values) const;
 
-  // The text of the next line.
+  // The text of the next line, which is not consumed.
   std::string_view rest_of_line() const { return sources_.back().tokens.rest_of_line(); }
 
-  // The number of fields of the last data line, and fields as numbers. An empty or missing real number is zero. `what`
-  // is for messages.
+  // size() is the number of fields of the last data line. integer() and real() convert a field to a number; an empty or
+  // missing real number is zero. `what` names the number in error messages.
   std::size_t size() const { return fields_.size(); }
   std::int64_t integer(std::string_view field, const char* what) const;
   double real(std::size_t field, const char* what) const;

@@ -11,10 +11,11 @@
 
 namespace orthodyn {
 
-// Physical volumes become regions, physical surfaces become surfaces, physical curves and points become node sets. They
-// keep their names, or are called "volume<tag>", "surface<tag>", "curve<tag>" and "points<tag>". Elements in no
-// physical volume form the region "body". Nodes are numbered by ascending tag, regions by ascending physical tag,
-// elements in file order; so both formats of a mesh give the same result. Coordinates are in metres.
+// Physical volumes become regions, physical surfaces become surfaces, physical curves and points become node sets.
+// Physical groups keep their names; unnamed ones are called "volume<tag>", "surface<tag>", "curve<tag>" and
+// "points<tag>". Elements in no physical volume form the region "body". Nodes are numbered by ascending tag, regions by
+// ascending physical tag, elements in file order; so both formats of a mesh give the same result. Coordinates are in
+// metres.
 //
 // Throws ConfigError "file:line: found, remedy" unless the file is a complete, valid mesh of linear or quadratic solid
 // elements (see build_mesh() and validate()). Memory use is bounded by the file size, whatever counts the file

@@ -1,5 +1,6 @@
 // Reads and writes VTK XML files of unstructured grids (.vtu). Reads ASCII, base64, and appended data (raw or base64),
-// uncompressed or zlib, in either byte order. Writes ASCII, exact to the last digit and readable by every version.
+// uncompressed or zlib, in either byte order. Writes ASCII, exact to the last digit and readable by every version of
+// VTK.
 //
 // Format: Kitware, VTK file formats, "XML file formats". Frames of a run have this format, too.
 #pragma once

@@ -27,8 +27,8 @@ namespace {
 constexpr const char* kRefineSentence = "Number of uniform refinements; each divides every element into eight.";
 const Rule kRefineRule{.range = {0, 6}};
 constexpr const char* kSplitSentence =
-    "true: hexahedra and wedges become tetrahedra. Pyramids, and elements with repeated nodes, are always split, and "
-    "with them all elements.";
+    "true: hexahedra and wedges become tetrahedra. A mesh with pyramids or with elements that repeat a node is always "
+    "split.";
 constexpr const char* kScale = "Factor of all coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
@@ -140,9 +140,9 @@ class VegaSource : public MeshSource, public FileOptions {
 };
 
 const bool file_registered[] = {
-    Registry<MeshSource>::add<FileSource>(
-        "file",
-        "A mesh file of any known format, by its ending. With .veg and .inp a scene may leave out `materials`."),
+    Registry<MeshSource>::add<FileSource>("file",
+                                          "A mesh file; the extension of its name selects the format. With .veg and "
+                                          ".inp a scene may leave out `materials`."),
     Registry<MeshSource>::add<GmshSource>("gmsh",
                                           "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, "
                                           "physical curves and points node sets."),

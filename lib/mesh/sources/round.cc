@@ -44,7 +44,8 @@ class RoundSource : public MeshSource, public Round {
         .key("radius", &S::radius, "Outer radius.", {.required = true, .unit = "m", .range = kPositive})
         .key("length", &S::length, "Length along the axis.", {.required = true, .unit = "m", .range = kPositive})
         .key("cells", &S::counts, "Cells around, through (rings), along.", {.required = true, .range = {1, 1e6}})
-        .key("grading", &S::grading, "Thickness of the outermost ring over that of the innermost.", {.range = kGrading})
+        .key("grading", &S::grading, "Thickness of the outermost ring divided by that of the innermost.",
+             {.range = kGrading})
         .key("elements", &S::elements_,
              "tetrahedra, or hexahedra of 20 nodes (8 with `order: 1`). Default: hexahedra for a tube whose cells are "
              "more than four times wider than their mean thickness, unless `order: 1` is given; otherwise tetrahedra.")
@@ -106,9 +107,9 @@ class TubeSource : public RoundSource<TubeMesh> {
 };
 
 const bool round_registered[] = {
-    Registry<MeshSource>::add<CylinderSource>(
-        "cylinder",
-        "A full cylinder with a square core of around/4 cells a side. Region: body. Surfaces: end0, end1, outer."),
+    Registry<MeshSource>::add<CylinderSource>("cylinder",
+                                              "A solid cylinder. The cells of its core form a square of around/4 x "
+                                              "around/4. Region: body. Surfaces: end0, end1, outer."),
     Registry<MeshSource>::add<TubeSource>("tube",
                                           "A hollow cylinder. Region: body. Surfaces: end0, end1, outer, inner."),
 };

@@ -12,8 +12,8 @@ namespace orthodyn {
 class ModalSolution {
  public:
   // Empty if the model is not linear, has time-dependent loads, an unsymmetric tangent, damping that couples modes or
-  // more than 2,000 unknowns (the eigenproblem is dense). Also empty if an elastic mode is slower than the fastest mode
-  // by a factor of 1e4 or more, because round-off hides its frequency.
+  // more than 2,000 unknowns (the eigenproblem is dense). Also empty if the frequency of an elastic mode is at most
+  // 1e-4 of the highest frequency, because round-off then makes it inaccurate.
   static std::optional<ModalSolution> find(const Model& model, const State& initial);
 
   State at(double t) const;

@@ -17,7 +17,7 @@ struct Trajectory {
   void save(const std::filesystem::path& path) const;
   static Trajectory load(const std::filesystem::path& path);
 
-  // True if the file agrees with its fingerprint.
+  // True if the file is complete and its content agrees with the fingerprint stored in it.
   static bool is_whole(const std::filesystem::path& path);
 };
 

@@ -21,18 +21,19 @@ struct Setup {
   std::vector<Event> events;
   std::optional<KinematicsChoice> kinematics;  // if the scene has `kinematics: auto`
   std::unique_ptr<LinearityWatch> linearity;   // watches the run; null without linear kinematics
-  double wall_seconds = 0, cpu_seconds = 0;    // time to make the integrator: modes, scales and the like
+  double wall_seconds = 0, cpu_seconds = 0;    // time to construct the integrator, with its scales and modes
 
   // Records why an earlier attempt with linear kinematics was abandoned.
   void note_kinematics_restart(const std::string& reason);
 };
 
-// The integration task of a scene. Both arguments must outlive it.
+// The integration task of a scene. Both arguments must outlive the task.
 Task task_of(const Scene& scene, const BuiltScene& built);
 
 // Reads and checks a scene, and builds its model and integrator; `input` is not changed. `resumes_linear`: see
-// choose_kinematics(). `is_timed`: false skips the checks of the time span. `ranks`: those that share the model, or
-// null. Collective. Throws ConfigError, or RunError if `start: equilibrium` finds no equilibrium.
+// choose_kinematics(). `is_timed`: false skips the checks of the time span. `ranks`: the MPI ranks that share the
+// model, or null; all ranks must call this function together. Throws ConfigError, or RunError if `start: equilibrium`
+// finds no equilibrium.
 Setup set_up(const Config& input, bool resumes_linear = false, bool is_timed = true, const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn

@@ -148,7 +148,7 @@ const Spec<Comparison>& Comparison::spec() {
                "`orthodyn list quantities`): [von_mises.largest, root.von_mises].")
           .key("frames", &Comparison::frames,
                "Write frames of each completed point and of its reference, for a 3D view side by side; {} for the "
-               "defaults. The observed run writes them, so timed runs are not affected.")
+               "defaults. An untimed run writes them, so timed runs are not affected.")
           .key("repeats", &Comparison::repeats, "Number of timed integrations per point.", {.range = {1, 100}})
           .key("samples", &Comparison::samples, "Number of evenly spaced times at which errors are measured.",
                {.range = {2, 2000}})

@@ -9,20 +9,20 @@
 
 namespace orthodyn::study::compare {
 
-// Changes of a scene, and the words that they add to its label: ", cells [45, 9, 9]".
+// Changes of a scene, and the text that they add to its label: ", cells [45, 9, 9]".
 struct Variant {
   Assignments set;
   std::string words;
 };
 
 // Sets `groups` and `problems` of a design, with a problem for each scene and variant. Throws ConfigError for a scene
-// that cannot be read.
+// that cannot be read, or that has no probes although the reference has its own mesh.
 void add_problems(const Comparison& comparison, const std::vector<Variant>& variants, Design& design);
 
 // "mesh.cells" -> "cells"
 std::string last_key(const std::string& path);
 
-// ", cells [45, 9, 9]"
+// The label text of one changed key: ", cells [45, 9, 9]".
 std::string words_of(const std::string& path, const YamlText& value);
 
 // The label with every run of characters other than letters, digits, '_' and '.' replaced by one '-', and without '-'

@@ -35,7 +35,7 @@ std::map<std::string, Alternative> sections() {
   for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
     Alternative one = entry;
     std::erase_if(one.keys, [](const Key& key) { return key.name == "rtol" || key.name == "step"; });
-    one.keys.push_back({"label", Value<std::string>::schema(), "", {}, "", "Its name in the report.", false});
+    one.keys.push_back({"label", Value<std::string>::schema(), "", {}, "", "Name of the method in the report.", false});
     out.emplace(name, one);
   }
   return out;

@@ -58,7 +58,7 @@ const Spec<WantedMetric>& WantedMetric::spec() {
           .key("of", &WantedMetric::of, kOfSentence, {.range = kPositive})
           .key("settled_within", &WantedMetric::settled_within,
                "Instead of `take`: the time after which the quantity stays within this fraction of its range about its "
-               "last value. Undefined if that is in the last tenth of the time span.",
+               "last value. Undefined if this time is in the last tenth of the time span.",
                {.range = {0, 1, true, true}})
           .key("mode", &WantedMetric::mode, "Natural frequency in Hz by its number, not counting rigid modes.",
                {.range = {1, 1000}})
@@ -76,7 +76,7 @@ const Spec<WantedMetric>& WantedMetric::spec() {
           .key("unit", &WantedMetric::unit, "Unit of display, such as mm; default SI.")
           .key("closed_form", &WantedMetric::closed_form,
                "Formula of the varied values and the definitions, in SI units, drawn as a line with the points.")
-          .key("scale", &WantedMetric::scale, "Scale of its axis in plots.")
+          .key("scale", &WantedMetric::scale, "Scale of the metric's axis in plots.")
           .check(check_metric);
   return s;
 }

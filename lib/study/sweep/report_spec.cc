@@ -58,12 +58,13 @@ const Spec<FrameSpec>& FrameSpec::spec() {
 }
 
 const Spec<PlotSpec>& PlotSpec::spec() {
-  static const auto s =
-      Spec<PlotSpec>()
-          .key("metric", &PlotSpec::metric, "Name of one of `quantities`.", {.required = true})
-          .rename("figure", "metric")
-          .key("x", &PlotSpec::x, "Variable on the horizontal axis; default the one with the most numbers.")
-          .key("lines", &PlotSpec::lines, "Variable with one line per value; default the next one.");
+  static const auto s = Spec<PlotSpec>()
+                            .key("metric", &PlotSpec::metric, "Name of one of `quantities`.", {.required = true})
+                            .rename("figure", "metric")
+                            .key("x", &PlotSpec::x,
+                                 "Variable on the horizontal axis; default: the numeric variable with the most values.")
+                            .key("lines", &PlotSpec::lines,
+                                 "Variable with one line per value; default: another variable with at most 8 values.");
   return s;
 }
 

@@ -13,7 +13,7 @@ namespace orthodyn::python {
 struct IntegrateRequest {
   std::string integrator;  // YAML: "{type: cvode_bdf, rtol: 1e-6}"
   State initial;
-  std::vector<double> times;  // s, ascending, after the start; the last is the end
+  std::vector<double> times;  // s, ascending, after the start; the last one ends the run
   double position_scale = 1, velocity_scale = 1;
 };
 
