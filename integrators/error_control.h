@@ -48,7 +48,7 @@ Spec<T> ErrorControl::spec_for() {
       .key("h0", &C::h0, "First step; default estimated.", {.unit = "s", .range = kPositive})
       .key("h_min", &C::h_min, "Smallest step.", {.unit = "s", .range = kNonNegative})
       .key("h_max", &C::h_max, "Largest step; default unlimited.", {.unit = "s", .range = kPositive})
-      .key("max_steps", &C::max_steps, "Steps after which the run gives up.", {.range = {1}})
+      .key("max_steps", &C::max_steps, "Number of steps after which the run fails.", {.range = {1}})
       .check([](const T& control, const Config& config) { check_error_control(control, config); });
 }
 

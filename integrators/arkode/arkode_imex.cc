@@ -52,7 +52,7 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public Options
         Options::spec_for<C>()
             .key("explicit", &C::explicit_parts,
                  "Names of the parts of the force to treat explicitly (gravity, traction on x1, elasticity of region "
-                 "soft, mass damping, ...); the others are implicit. At least one.")
+                 "soft, mass damping, ...); the others are implicit. Give at least one name.")
             .key("table", &C::table, "The pair of tables: name, stages, order of the error estimate, order."),
         "Fixed step instead of error control; rtol then applies only to Newton's method.");
     return s;

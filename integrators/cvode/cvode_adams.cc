@@ -29,7 +29,8 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
                  "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix, but needs steps "
                  "below 1/omega_max.")
             .key("anderson", &C::anderson,
-                 "Earlier iterates that accelerate the fixed-point iteration (Anderson 1965).", {.range = {0, 10}})
+                 "Number of earlier iterates used to accelerate the fixed-point iteration (Anderson 1965).",
+                 {.range = {0, 10}})
             .check([](const C& options, const Config& config) { options.check_iteration_keys(config); });
     return s;
   }

@@ -219,7 +219,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
                  {.unit = "s", .range = kPositive})
             .key("safety", &C::safety, "Step divided by the critical step, with step: auto.",
                  {.range = {0, 1, true, true}})
-            .key("max_steps", &C::max_steps, "Steps after which the run gives up.", {.range = {1}})
+            .key("max_steps", &C::max_steps, "Number of steps after which the run fails.", {.range = {1}})
             .check([](const C& options, const Config& config) {
               if (options.step.value && options.safety != CentralOptions{}.safety)
                 config.at("safety").fail("is not used with a fixed step; remove it, or set `step: auto`");

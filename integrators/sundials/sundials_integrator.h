@@ -1,6 +1,6 @@
-// Base of the integrators of SUNDIALS, whose state is y = (q, v). It contains what CVODE, IDA and ARKODE share: state,
-// error weights, Newton's linear systems, counters and failure messages. One derived class per library makes the calls
-// that differ.
+// Base class of the integrators that call SUNDIALS, with the state y = (q, v). It contains what CVODE, IDA and ARKODE
+// share: state, error weights, Newton's linear systems, counters and failure messages. One derived class per library
+// makes the calls that differ.
 //
 // Error test: the local error e of y is accepted if the root mean square of w_i e_i is at most 1. The inverse weight
 // 1/w_i is rtol times the position scale for positions and rtol times the velocity scale for velocities. Tolerances
@@ -67,7 +67,7 @@ class SundialsIntegrator : public Integrator {
   SundialsIntegrator(std::string name, const LibraryCalls& library, const Model& model, const Options& options,
                      const Scales& scales, bool implicit);
 
-  // Check for integrators of y' = (v, M^-1 f). Throws ConfigError for klu_full with a consistent mass, whose inverse is
+  // For integrators of y' = (v, M^-1 f): throws ConfigError for klu_full with a consistent mass, whose inverse is
   // dense.
   void check_mass_for_full_jacobian() const;
 
@@ -81,7 +81,7 @@ class SundialsIntegrator : public Integrator {
   // Computes (q, v) at a time within the last step; returns the library's flag.
   virtual int dense_output(double t, N_Vector out) const = 0;
   virtual Reason classify(int flag) const = 0;  // reason for a negative flag
-  // Number of steps that the derived class has tried again; the library does not count these as convergence failures.
+  // Number of steps that the derived class has repeated; the library does not count these as convergence failures.
   virtual long retries() const { return 0; }
   virtual std::size_t own_bytes() const { return 0; }  // bytes of the derived class itself
   // Message for a step whose iteration does not converge, with the remedy.
@@ -115,7 +115,7 @@ class SundialsIntegrator : public Integrator {
   const Model& model_;
   const Options options_;
   const Scales scales_;
-  Decisions decisions_;  // values chosen for keys that the input left open, without the linear solver
+  Decisions decisions_;  // values chosen for keys that the input left open, except linear_solver
   Statistics statistics_;
   CallbackContext callback_context_;
   Context context_;  // declared before everything created in it
@@ -131,7 +131,7 @@ class SundialsIntegrator : public Integrator {
   };
   Counters counters() const;
   void update_statistics();
-  // Throws RunError if the last step was as short as the resolution of time.
+  // Throws RunError if the last step was so short that round-off of the time t is comparable to the step.
   void refuse_tiny_steps(const StepInfo& info, double t_stop) const;
   std::string position() const;  // "NAME stopped at t = ..., step ...: "
   [[noreturn]] void fail(int flag);

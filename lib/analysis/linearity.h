@@ -1,8 +1,8 @@
 // Error of linear kinematics at a displacement q. Newton's method, with the factorised tangent of the model, moves the
 // body from q to the position at which the exact (corotational) force equals the linear force at q. The distance is the
-// error. It covers rotations, finite strains and stretched midlines, and costs a few force evaluations and solves. In
-// statics the tangent of the exact force is also factorised, because a straight column above Euler's load is in
-// equilibrium, but unstable.
+// error. It includes the effects of rotations, finite strains and stretched midlines, and costs a few force evaluations
+// and solves. In statics the tangent of the exact force is also factorised, because a straight column above Euler's
+// load is in equilibrium, but unstable.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace orthodyn {
 // if a slender body has moved by a large part of its thickness.
 struct LinearityError {
   double displacement = 0;  // |error| / |displacement|
-  double stiffness = 0;     // likewise for the error along the displacement: relative error of the stiffness
+  double stiffness = 0;     // |error along the displacement| / |displacement|: relative error of the stiffness
   bool unstable = false;    // statics only: the exact tangent is not positive definite; both errors are then infinite
 };
 
@@ -41,7 +41,7 @@ class Linearity {
   // tangent at rest cannot be factorised.
   Linearity(const FemModel& model, Terms terms, double span);
 
-  // Error of the displacement q (m) at time t (s), caused by all terms or by the given ones; 0 for q = 0.
+  // Error of the displacement q (m) at time t (s), caused by all terms of this object or by `terms`; 0 for q = 0.
   LinearityError error(double t, const Vector& q) { return error(t, q, terms_); }
   LinearityError error(double t, const Vector& q, const Terms& terms);
 

@@ -1,4 +1,5 @@
-// The value of a quantity that another key names: a number in SI, or with a unit ("1 mJ"), which require() checks.
+// A value whose dimension depends on another key, which names a quantity: a number in SI, or with a unit ("1 mJ").
+// require() checks the unit.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace orthodyn {
 
-// Shown as the unit of such values in lists of keys.
+// Shown in lists of keys in place of a unit.
 inline constexpr std::string_view kUnitOfQuantity = "unit of the quantity";
 
 class QuantityValue {

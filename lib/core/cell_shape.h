@@ -1,7 +1,7 @@
 // Shapes of cells: their corners, mid-nodes ("middles") and faces. Nodes are numbered as by VTK:
 //
 //   tetrahedron  corners 0 1 2 3, with positive volume (x1-x0) . ((x2-x0) x (x3-x0))
-//   wedge        triangle 0 1 2, opposite triangle 3 4 5; the normal of 0 1 2 points inward (VTK's manual: outward)
+//   wedge        triangle 0 1 2, opposite triangle 3 4 5; the normal of 0 1 2 points inward (in VTK's manual: outward)
 //   hexahedron   quadrilateral 0 1 2 3, opposite one 4 5 6 7; the normal of 0 1 2 3 points inward
 //
 // The nodes after the corners are the middles of edges, then of quadrilaterals, then of the cell.

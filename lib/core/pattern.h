@@ -28,8 +28,8 @@ struct Pattern {
   bool symmetric = true;          // only the lower triangle is stored
   std::vector<int> column_start;  // start of each column in `row`, and the end of the last; n + 1 entries
   std::vector<int> row;
-  // 3 point + component of each unknown, ascending; empty if unknowns have none. Unknowns of one point have entries in
-  // the same rows.
+  // For each unknown: 3 * point + component, ascending; empty if the unknowns are not coordinates of points. Unknowns
+  // of one point have entries in the same rows.
   std::vector<int> coordinate;
   std::shared_ptr<const PatternShare> share = {};  // null if the matrix is not distributed over ranks
 

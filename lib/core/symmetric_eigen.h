@@ -1,8 +1,8 @@
 // Eigenvalues of dense symmetric matrices by Eigen's solvers (QR after tridiagonalisation, Golub & Van Loan, Matrix
-// Computations, 8.3). They are compiled once for N = 3, 6 and Eigen::Dynamic, since each instantiation takes seconds to
-// compile. Only the lower triangle is read. Eigenvalues ascend and have the unit of A, or of A/B in the generalised
-// problem. Thread-safe. Values and vectors are NaN if the iteration does not converge, for example because an entry is
-// not finite.
+// Computations, 8.3). The templates are instantiated in the .cc file for N = 3, 6 and Eigen::Dynamic only, since each
+// instantiation takes seconds to compile. Only the lower triangle is read. Eigenvalues ascend and have the unit of A,
+// or of A/B in the generalised problem. Thread-safe. Values and vectors are NaN if the iteration does not converge, for
+// example because an entry is not finite.
 #pragma once
 
 #include "lib/core/types.h"

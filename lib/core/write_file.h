@@ -19,7 +19,7 @@ void disable_file_writing();
 // folder. Devices and pipes are written directly.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
-// As write_file(). Once it has returned, the file survives a power failure.
+// As write_file(). Once this function has returned, the file survives a power failure.
 void write_durable_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
 // Writes all of `text` into an open file, `at` bytes after its start. Returns false on failure, with the cause in

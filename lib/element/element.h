@@ -1,8 +1,9 @@
 // The element concept: shape functions and integration points of a cell.
 //
 // Shape functions N_a sum to one, so H = F - I = sum_a u_a grad N_a = sum_{a>0} (u_a - u_0) grad N_a: only gradients of
-// nodes 1, 2, ... are stored, and the force on node 0 is minus the sum of the others. Gradients are in material axes,
-// g_a = Q^T grad N_a with the axes as columns of Q, so that all products are H Q and P Q.
+// nodes 1, 2, ... are stored, and the force on node 0 is minus the sum of the other forces. Gradients are in material
+// axes, g_a = Q^T grad N_a with the axes as columns of Q, so functions return H Q instead of H and take P Q instead of
+// P.
 //
 // Each element has its own file: a struct E with static, pure functions that satisfies the concept below.
 // ElementTypeOf<E> (lib/fem/element_type_of.h) makes it an ElementType.
@@ -57,7 +58,7 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::kPressures } -> std::convertible_to<int>;
   // Point `point` in [0, kPoints), from the node differences at rest and the material axes.
   { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
-  { E::place_of(point, X) } -> std::same_as<Vec3>;  // m, at rest
+  { E::place_of(point, X) } -> std::same_as<Vec3>;  // rest position of the point, m
   // The largest d such that the shape functions span all polynomials of degree d.
   { E::kDegree } -> std::convertible_to<int>;
   // Extrapolates point values to the nodes by the polynomial through the points.

@@ -45,7 +45,7 @@ inline const std::array<QuadraturePoint, 7>& triangular_face_points() {
 }
 
 // The cross product of the tangents at a point, m^2: twice the area vector of a plane triangle with straight edges, a
-// quarter of that of a parallelogram.
+// quarter of the area vector of a parallelogram.
 template <Face F>
 Vec3 normal_at(const FaceNodes<F>& x, const Vec3& place) {
   const Eigen::Matrix<double, 3, 2> tangents = x * F::slopes(place);
@@ -53,8 +53,8 @@ Vec3 normal_at(const FaceNodes<F>& x, const Vec3& place) {
 }
 
 // integral of N_a g dA, one column per node a, for a scalar or vector field g of position. Exact on a plane triangle
-// with straight edges if N_a g is a polynomial of degree <= 5, and on a parallelogram if its degree in each natural
-// coordinate is.
+// with straight edges if N_a g is a polynomial of degree <= 5, and on a parallelogram if N_a g has degree <= 5 in each
+// natural coordinate.
 template <Face F, class Field>
 auto node_integrals(const FaceNodes<F>& X, const Field& g) {
   using Value = std::decay_t<decltype(g(Vec3()))>;

@@ -1,4 +1,5 @@
-// The common base of laws that rotate with the material: objective viscous stress, and output at a point.
+// The common base of laws that rotate with the material: objective viscous stress, and output at a point. The polar
+// decomposition is F = R S with G = tr(S) I - S (polar.h); [c] and a() are those of axial.h.
 //
 // Stiffness-proportional damping acts on the rate of the strain S - I, so that a rigid motion dissipates nothing. With
 // dS the rate of S and beta the damping (s), its potential is beta chi dS:C:dS / 2 and its stress is P = R (s + [c])
@@ -79,14 +80,16 @@ class RotatingLaw {
     return {stretch_strain<Batch>(H, Q, p.S).trace(), p.R, p.G_inverse};
   }
 
-  // The Cauchy stress of the volumetric stress s: s R with R = d theta / dF; NaN if det F <= 0.
+  // The Cauchy stress that corresponds to P = s R, the stress of an energy with d Psi / d theta = s for the volume
+  // strain theta, since R = d theta / dF. NaN if det F <= 0.
   Mat3 cauchy_of_volumetric(double s, const Mat3& H, const Mat3& Q) const {
     const Mat3 F = deformation_gradient<double>(H, Q);
     return cauchy_stress(s * polar(F, Q).R, F);
   }
 
-  // D with D : (F1 - F0) = theta1 - theta0 and D (F0 + F1)^T symmetric, for the volume strain theta: (F0 + F1)/2 s^-1
-  // with the mean s of S (mean_stress() of corotational_law.h, for the stress I). Precondition: s is not singular.
+  // Returns the D that satisfies D : (F1 - F0) = theta1 - theta0 for the volume strain theta, with D (F0 + F1)^T
+  // symmetric: D = (F0 + F1)/2 s^-1 with s = (S0 + S1)/2. This is mean_stress() of corotational_law.h for the stress I.
+  // Precondition: s is not singular.
   Mat3 mean_volume_gradient(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
     const Mat3 F0 = deformation_gradient<double>(H0, Q), F1 = deformation_gradient<double>(H1, Q);
     const Mat3 s = 0.5 * (polar(F0, Q).S + polar(F1, Q).S);
@@ -100,7 +103,7 @@ class RotatingLaw {
     return {cauchy_stress(P, F), p.R, stretch_strain<double>(H, Q, p.S)};
   }
 
-  // Inverted lanes are not good.
+  // `good` is false in lanes with det F <= 0.
   template <class Axes>
   ORTHODYN_FLATTEN PointObservationOf<Batch> batch_observe(const Mat3T<Batch>& H, const Axes& Q,
                                                            Batch::Mask& good) const {

@@ -16,7 +16,7 @@
 
 namespace orthodyn {
 
-// Error estimate for the elements of a term on this rank, in the order of the term.
+// Error estimate for the elements of a term on this rank, one entry per element, in the term's order.
 struct RegionMeshError {
   Vector volume;  // m^3
   Vector error;   // elastic energy of the error, J
@@ -32,14 +32,15 @@ class StressRecovery {
   using Terms = std::vector<std::unique_ptr<ElasticTerm>>;
 
   // All arguments must outlive this object. With several ranks, `mesh` is the whole mesh, states belong to the
-  // subdomain, and all functions are collective.
+  // subdomain, and all ranks must call each function together.
   StressRecovery(const Mesh& mesh, const Terms& terms, const Subdomain* subdomain)
       : mesh_(mesh), terms_(terms), subdomain_(subdomain) {}
 
   std::size_t num_nodes() const { return mesh_.nodes.size(); }
   std::size_t num_regions() const { return terms_.size(); }
 
-  // Recovers six components of a point observation in the region of one term. `nodes` refers to this object.
+  // Recovers six components of a point observation in the region of one term. `nodes` and `inside` point into this
+  // object.
   using Pick = std::function<Vec6(const PointObservation&)>;
   struct NodalValues {
     const std::vector<int>* nodes;    // indices in the mesh
@@ -49,7 +50,7 @@ class StressRecovery {
   NodalValues at_nodes_of_region(std::size_t region, const NodalState& s, const Pick& pick) const;
 
   // The values of at_nodes_of_region() at one node of the mesh, from the elements around it; empty if the node is not
-  // of the region. Precondition: one rank.
+  // in the region. Precondition: one rank.
   struct NodalValue {
     Vec6 value;
     bool inside;

@@ -77,8 +77,8 @@ class Anisotropic : public Material {
             {.required = needed, .unit = "Pa", .range = e.diagonal() ? kPositive : Range{}});
     }
     s.key("repair", &A::repair_,
-          "What to do with an unstable set. none: refuse it. shrink: multiply all constants off the diagonal by the "
-          "largest factor that makes it stable, with a warning.");
+          "Treatment of constants that make the material unstable. none: refuse them. shrink: multiply all constants "
+          "off the diagonal by the largest factor that makes it stable, with a warning.");
     s.check([](const A& a, const Config& config) {
       if (is_stable(a.given())) return;
       if (a.repair_ == RatioRepair::none) config.fail(a.explained());

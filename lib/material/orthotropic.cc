@@ -51,8 +51,8 @@ class Orthotropic : public Material {
             .key("symmetrise", &O::symmetrise_,
                  "For measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
             .key("repair", &O::repair_,
-                 "What to do with an unstable set. none: refuse it. shrink: multiply all ratios by the largest factor "
-                 "that makes it stable, with a warning.")
+                 "Treatment of constants that make the material unstable. none: refuse them. shrink: multiply all "
+                 "ratios by the largest factor that makes it stable, with a warning.")
             .check([](const O& o, const Config& config) {
               o.refuse_unpaired(config);
               if (!is_stable(o.given()) && o.repair_ == RatioRepair::none)

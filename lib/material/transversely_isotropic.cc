@@ -34,8 +34,8 @@ class TransverselyIsotropic : public Material {
                  modulus)
             .key("strength", &M::strength_, kStrengthSentence)
             .key("repair", &M::repair_,
-                 "What to do with an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor "
-                 "that makes it stable, with a warning.")
+                 "Treatment of constants that make the material unstable. none: refuse them. shrink: multiply both "
+                 "ratios by the largest factor that makes it stable, with a warning.")
             .check([](const M& m, const Config& config) {
               if (m.is_given_stable()) return;
               if (m.repair_ == RatioRepair::none) config.fail(m.explained());

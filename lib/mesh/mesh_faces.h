@@ -16,13 +16,14 @@ struct MeshFace {
   FaceCorners outward() const { return flipped ? corners.reversed() : corners; }
 };
 
-// All faces, sorted by corners, then side, then cell. Precondition: node indices in range, positive volumes.
+// All faces, sorted by corners, then by `flipped`, then by cell. Precondition: node indices in range, positive volumes.
 std::vector<MeshFace> sorted_faces(const Mesh& mesh);
 
 // The faces with the same corners as faces[begin] are [begin, end_of_face(faces, begin)).
 std::size_t end_of_face(const std::vector<MeshFace>& faces, std::size_t begin);
 
-// The faces with these corners, in any order: the first one, and the end. `faces`: sorted_faces().
+// Indices of the first face with these corners (given in any order) and of the end of these faces; equal if there are
+// none. `faces`: sorted_faces().
 std::pair<std::size_t, std::size_t> find_faces(const std::vector<MeshFace>& faces, FaceCorners corners);
 
 }  // namespace orthodyn

@@ -32,11 +32,11 @@ struct Selection {
   SourceLocation origin;
 
   int count() const;
-  // Fails unless exactly one key is given.
+  // Throws ConfigError unless exactly one key is given.
   void check(const Config& config) const;
 };
 
-// Keys of a T derived from Selection.
+// Spec with the keys of a Selection. T is derived from Selection.
 template <class T>
 Spec<T> selection_spec() {
   return Spec<T>()

@@ -1,6 +1,7 @@
 // Mid-edge nodes of the tetrahedra that quadratic elements are split into. On the edges of the elements these are nodes
-// of the file. On diagonals of faces and hexahedra without a node of the file, they are new nodes at the centre, placed
-// by the serendipity shape functions of the element.
+// of the file. On a diagonal of a face or hexahedron that has no node of the file, a new node is created at the centre,
+// placed by the serendipity shape functions of the face or hexahedron. On any other edge the new node is at the
+// midpoint.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ class SplitMiddles {
   // Appends new nodes to the mesh, which must outlive the object.
   explicit SplitMiddles(Mesh& mesh) : mesh_(mesh) {}
 
-  // Call for all elements, tets included, before of(): first add_edges(), then add_diagonals().
+  // Both must be called for all elements, tets included, before of(): first add_edges(), then add_diagonals().
   void add_edges(std::span<const EdgeMiddle> edges);
   void add_diagonals(CellKind kind, std::span<const int> corners);
 

@@ -81,7 +81,8 @@ const Spec<Scene>& Scene::spec() {
                "rest: from the rest shape. equilibrium: from the static equilibrium under the loads at the start.",
                {.with = kDynamic})
           .key("initial", &Scene::initial, "Initial state; default at rest.", {.with = kDynamic})
-          .key("time", &Scene::time, "Time span; optional in statics, which evaluate factors of loads at its end.",
+          .key("time", &Scene::time,
+               "Time span; optional in a static analysis, which evaluates the factors of loads at the end of the span.",
                {.fallback = "{end: 0}"})
           .key("integrator", &Scene::integrator, "Time integrator.", {.fallback = "{type: auto}", .with = kDynamic})
           .key("statics", &Scene::statics, "Equilibrium solver, for analysis: static and start: equilibrium.")

@@ -9,7 +9,7 @@
 
 namespace orthodyn {
 
-// `orthodyn run` on one or several ranks.
+// A job that executes `orthodyn run` on one or several MPI ranks.
 struct RunJob {
   std::filesystem::path program, scene, folder;
   std::vector<std::string> options;  // of `orthodyn run`, except --out and --resume
@@ -17,15 +17,15 @@ struct RunJob {
   bool resumes = false;              // continues from the checkpoint, so the script can be submitted again
 };
 
-// `orthodyn sweep`: each task of the array computes its share of the points.
+// A job array that executes `orthodyn sweep`; each task of the array computes a part of the points.
 struct ArrayJob {
   std::string program;
   std::filesystem::path sweep, folder;
   std::string name;
   std::size_t points = 0, tasks = 0;
-  Limits limits;       // of a point
+  Limits limits;       // time and memory of one point
   bool retry = false;  // recompute points that failed before
-  int ranks = 1;       // of a point
+  int ranks = 1;       // MPI ranks of one point
 };
 
 // The text of a script. Both throw ConfigError if a name contains control characters, because text after a line break

@@ -1,4 +1,5 @@
-// Surfaces of an Abaqus mesh: *SURFACE, the faces that *DLOAD loads, and sets of shell and plane elements.
+// Surfaces of an Abaqus mesh: those of *SURFACE, the faces loaded by *DLOAD, and element sets of shell and plane
+// elements.
 #pragma once
 
 #include "lib/mesh/io/abaqus_lookup.h"

@@ -1,4 +1,4 @@
-// How a computation ended.
+// The outcome of a computation: completed, interrupted or failed, with messages and the last state.
 #pragma once
 
 #include <functional>
@@ -27,8 +27,8 @@ struct Outcome {
 
 const char* status_word(Outcome::Status status);  // "completed"
 
-// Processor time (s); only differences are meaningful. Time of this thread if loops run on one thread, else of the
-// process. The number of threads must not change between the two calls of a difference.
+// Processor time (s) since an arbitrary start: subtract two calls. The time is that of this thread if loops run on one
+// thread, otherwise that of the process. The number of threads must not change between the two calls.
 double cpu_seconds_now();
 
 // Calls `work` with an outcome whose last state is `initial`, turns an exception into a failed outcome, and calls

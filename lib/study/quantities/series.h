@@ -19,15 +19,16 @@ struct Series {
   std::size_t size() const { return times.size(); }
 };
 
-// Metrics of a scalar series; NaN if the series has no such metric.
-// Largest value, or the smallest with sign = -1, refined by a parabola through the neighbouring samples; and its time,
-// s.
+// Metrics of a series; all but drift() need a scalar series. NaN if the series has no such metric.
+
+// Largest value, or the smallest with sign = -1, refined by a parabola through the neighbouring samples; and the time
+// (s) of this value.
 double maximum(const Series& series, double sign = 1);
 double time_of_maximum(const Series& series, double sign = 1);
-double mean(const Series& series);       // over time
+double mean(const Series& series);       // mean over time
 double frequency(const Series& series);  // Hz, from upward crossings of the mean
 // Time from the start (s) after which the values differ from the last value by at most `share` of their range; NaN if
-// that time is in the last tenth of the time span.
+// this time is in the last tenth of the time span.
 double settling_time(const Series& series, double share);
 // Largest change from the start, in the series' unit; the Euclidean norm for vectors.
 double drift(const Series& series);
@@ -63,7 +64,7 @@ class SeriesRecorder : public Observer {
   double last_t_ = 0;
 };
 
-// The metric of a recorded quantity that `wanted` names; NaN if the series has no such metric.
+// The metric named by `wanted`, computed for a recorded quantity; NaN if the series has no such metric.
 double metric(const Expectation& wanted, const SeriesRecorder& recorder, std::size_t quantity);
 
 // Output times (s) after `start` that the expectations need, ascending.

@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// A number with its own unit, "10 MPa", or without one.
+// A number with its own unit ("10 MPa"), or without a unit.
 struct Amount {
   double number = 0;
   std::string unit;
@@ -38,7 +38,7 @@ struct NumberRange {
 // The number at `share` of the range: `from` at 0, `to` at 1.
 double range_at(const NumberRange& range, double share);
 
-// Listed values, in one unit.
+// A list of values, all in one unit.
 struct ValueList {
   std::vector<YamlText> values;
   std::string unit, name;
@@ -89,7 +89,7 @@ struct Value<std::vector<Variable>> {
 // formulas.
 std::vector<std::string> scene_keys();
 
-// Suggestion for a misspelt top-level key: "; did you mean 'gravity'?", or "" if no key is near.
+// Suggestion for a misspelt top-level key: "; did you mean 'gravity'?", or "" if no key is similar.
 std::string scene_key_near(const std::string& name);
 
 }  // namespace orthodyn

@@ -19,11 +19,11 @@ Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene
 Warnings check_response(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics);
 
-// Largest number of unknowns for which the static response is computed if only these checks need it.
+// Largest number of unknowns for which the static response is computed if only check_response() needs it.
 constexpr int kMaxUnknownsOfResponse = 30'000;
 
-// Builds the scene and returns the warnings of both functions. For studies, whose points run in other processes. Empty
-// if the scene cannot be built; the points then report the error.
+// Builds the scene and returns the warnings of check_inputs() and check_response(). For studies, whose points run in
+// other processes. Empty if the scene cannot be built; the points then report the error.
 Warnings scene_warnings(const Config& scene);
 
 }  // namespace orthodyn
