@@ -112,7 +112,7 @@ void require_ranks(const StudyArguments& arguments) {
 
 void require_usual_number(const StudyArguments& arguments, double points) {
   constexpr double kBytesOfPoint = 16e3;  // scene, input and result take a disk block each
-  if (arguments.yes || points < kMaxOutputsWithoutYes) return;
+  if (arguments.yes || points < kConfirmationThreshold) return;
   throw ConfigError(arguments.file,
                     fmt::format("makes {:.7g} points (about {} of disk); use fewer values, or --yes to allow it",
                                 points, shown_bytes(points * kBytesOfPoint)));

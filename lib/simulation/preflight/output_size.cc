@@ -84,13 +84,13 @@ OutputSize output_size_of(const Setup& setup) {
 
 void require_allowed_output_size(const Setup& setup) {
   const OutputSize size = output_size_of(setup);
-  if (setup.scene.is_static() && size.frames >= kMaxOutputsWithoutYes)
+  if (setup.scene.is_static() && size.frames >= kConfirmationThreshold)
     refuse(setup, "statics", size.frames, "load steps", size.frame_bytes + size.row_bytes,
            "use a larger statics.max_step");
-  if (size.frames >= kMaxOutputsWithoutYes)
+  if (size.frames >= kConfirmationThreshold)
     refuse(setup, "output", size.frames, "frames", size.frame_bytes,
            "use fewer output.frames or a longer output.interval");
-  if (size.rows >= kMaxOutputsWithoutYes)
+  if (size.rows >= kConfirmationThreshold)
     refuse(setup, "output", size.rows, "rows of tables", size.row_bytes,
            setup.scene.output.history && setup.scene.output.history->steps
                ? "use output.history.interval instead of output.history.steps"

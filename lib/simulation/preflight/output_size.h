@@ -10,7 +10,7 @@ namespace orthodyn {
 
 // From this number of frames, table rows, load steps or study points on, a run needs --yes: such a number is probably a
 // typing error.
-constexpr double kMaxOutputsWithoutYes = 1e6;
+constexpr double kConfirmationThreshold = 1e6;
 
 struct OutputSize {
   double frames = 0;       // number of frames; in statics at least one per load step, in buckling one per shape
