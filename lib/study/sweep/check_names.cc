@@ -55,7 +55,7 @@ std::vector<std::string> formulas_of(const Sweep& sweep) {
   add_texts(sweep.scene.set);
   for (const auto& variable : sweep.vary) {
     for (const auto& value : variable.values) {
-      for (const auto& [name, formula] : value.let) all.push_back(formula.text);
+      for (const auto& [name, formula] : value.definitions) all.push_back(formula.text);
       add_texts(value.set);
     }
   }
@@ -72,7 +72,7 @@ void refuse_unused_names(const Sweep& sweep) {
   for (const auto& v : sweep.vary) {
     if (v.path.empty() && v.numeric()) require(v.name, v.origin);
     for (const auto& value : v.values)
-      for (const auto& [name, formula] : value.let) require(name, formula.origin);
+      for (const auto& [name, formula] : value.definitions) require(name, formula.origin);
   }
 }
 
@@ -89,7 +89,7 @@ void refuse_ambiguous_names(const Sweep& sweep) {
   for (const auto& v : sweep.vary) {
     Places own;
     for (const auto& value : v.values)
-      for (const auto& [name, formula] : value.let)
+      for (const auto& [name, formula] : value.definitions)
         if (name != v.name)
           own.emplace(name, formula.origin);  // a variable of named sets has no number, so its name is free
     for (const auto& [name, place] : own) reserve(taken, name, place);

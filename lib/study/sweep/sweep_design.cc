@@ -136,7 +136,7 @@ class Expansion {
       if (values[k].number && is_identifier(sweep_.vary[k].name))
         scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
     for (std::size_t k = 0; k < values.size(); ++k)
-      for (const auto& [name, value] : values[k].let) scope.add(name, number_of(value, scope));
+      for (const auto& [name, value] : values[k].definitions) scope.add(name, number_of(value, scope));
     for (const auto& [name, value] : sweep_.definitions) scope.add(name, number_of(value, scope));
     return scope;
   }

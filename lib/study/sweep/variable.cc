@@ -109,7 +109,7 @@ void read_sets(const Config& c, Variable& v) {
     if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());
     VariedValue value{label, {}, {}, {}};
     for (const auto& key : set.keys()) {
-      auto& list = is_path(key) ? value.set : value.let;
+      auto& list = is_path(key) ? value.set : value.definitions;
       if (!is_path(key)) check_formula_name(key, set.at(key));
       list.emplace_back(key, Value<YamlText>::read(set.at(key), {}));
     }
