@@ -22,7 +22,7 @@ constexpr int kInputError = 2, kRunError = 3;
 
 // Ends all ranks if only this one failed; else rethrows on the first rank.
 int after_failure(const Ranks& ranks, const std::string& message, int exit_code) {
-  if (failed_alone(&ranks)) end_all_ranks(ranks, message);
+  if (only_this_rank_failed(&ranks)) end_all_ranks(ranks, message);
   if (ranks.is_first()) std::rethrow_exception(std::current_exception());
   return exit_code;
 }

@@ -76,8 +76,8 @@ int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
                                            .allow_large_output = arguments.yes,
                                            .ranks = ranks},
                                           interrupted(), terminal ? *terminal : nobody);
-  if (result.failed_alone && prints) ranks->abort(exit_code(result));  // the message has been printed
-  if (result.failed_alone) end_all_ranks(*ranks, result.outcome.message);
+  if (result.only_this_rank_failed && prints) ranks->abort(exit_code(result));  // the message has been printed
+  if (result.only_this_rank_failed) end_all_ranks(*ranks, result.outcome.message);
   if (result.was_complete && !arguments.quiet && prints)
     fmt::print("{} is complete at t = {:.6g} s: nothing to do\n", result.folder.string(), result.outcome.last.t);
   if (result.motion && result.motion->error) print_estimate(result);

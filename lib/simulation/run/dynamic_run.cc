@@ -95,7 +95,7 @@ class DynamicAnalysis {
     RunResult result{.scene = context_.scene, .folder = folder_.path()};
     result.ranks = num_ranks(context_.request.ranks);
     result.outcome = integrate(begin, observers, result.resumable);
-    result.failed_alone = failed_alone_;
+    result.only_this_rank_failed = only_this_rank_failed_;
     if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
     if (setup_.linearity && result.outcome.status != Outcome::Status::interrupted)
@@ -133,8 +133,9 @@ class DynamicAnalysis {
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     Outcome outcome = orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
-    failed_alone_ = outcome.status == Outcome::Status::failed && failed_alone(setup_.built.model->ranks());
-    if (!failed_alone_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
+    only_this_rank_failed_ =
+        outcome.status == Outcome::Status::failed && only_this_rank_failed(setup_.built.model->ranks());
+    if (!only_this_rank_failed_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
     const bool is_written = write_last_checkpoint(outcome, begin.begun, checkpointer);
     resumable = is_written || setup_.scene.checkpoint;
     return outcome;
@@ -151,7 +152,7 @@ class DynamicAnalysis {
   // False if the checkpoint cannot be written, which must not hide the failure of a run.
   bool write_last_checkpoint(const Outcome& outcome, bool resumed, Checkpointer& checkpointer) {
     try {
-      if (failed_alone_ || !outcome.between_steps)
+      if (only_this_rank_failed_ || !outcome.between_steps)
         return outcome.reason == Reason::disk && checkpointer.write_remembered();
       if (!needs_last_checkpoint(setup_.scene, outcome, resumed)) return false;
       checkpointer.write(outcome.last);
@@ -183,7 +184,7 @@ class DynamicAnalysis {
           estimate_mesh_error(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true, *out.mesh_error)
               .error;
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
-    if (outcome.status == Outcome::Status::failed && !failed_alone_)
+    if (outcome.status == Outcome::Status::failed && !only_this_rank_failed_)
       out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }
@@ -232,7 +233,7 @@ class DynamicAnalysis {
   std::optional<ErrorEstimator> estimator_;
   std::optional<SegmentRecorder> segments_;
   std::optional<MeshErrorRecorder> mesh_error_;
-  bool failed_alone_ = false;  // the other ranks are waiting for this one
+  bool only_this_rank_failed_ = false;  // the other ranks are waiting for this one
 };
 
 }  // namespace

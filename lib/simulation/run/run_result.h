@@ -127,7 +127,7 @@ struct RunResult {
   std::optional<KinematicsRestart> kinematics_restart = {};  // the run ended and must be repeated with other kinematics
   int ranks = 1;                                             // number of ranks that computed the scene
   bool resumable = false;                                    // the folder holds a checkpoint
-  bool failed_alone = false;                                 // only this rank failed; the others wait for it
+  bool only_this_rank_failed = false;                        // only this rank failed; the others wait for it
 };
 
 }  // namespace orthodyn

@@ -27,13 +27,14 @@ void adapt_to_ranks(Config& config, Scene& scene) {
 
 int num_ranks(const Ranks* ranks) { return ranks ? ranks->size() : 1; }
 
-bool failed_alone(const Ranks* ranks) {
+bool only_this_rank_failed(const Ranks* ranks) {
   constexpr double kSecondsToMeet = 10;
   return ranks && !ranks->barrier_within(kSecondsToMeet);
 }
 
 void require_failure_of_all(const Ranks* ranks, const Outcome& outcome) {
-  if (outcome.status == Outcome::Status::failed && failed_alone(ranks)) throw std::runtime_error(outcome.message);
+  if (outcome.status == Outcome::Status::failed && only_this_rank_failed(ranks))
+    throw std::runtime_error(outcome.message);
 }
 
 }  // namespace orthodyn

@@ -15,9 +15,9 @@ void adapt_to_ranks(Config& config, Scene& scene);
 // Number of ranks; 1 for null.
 int num_ranks(const Ranks* ranks);
 
-// Call on a rank that has failed. Waits for the other ranks, and returns true if they do not call this function within
-// 10 s; they can then only be terminated. `ranks`: null for this process alone.
-bool failed_alone(const Ranks* ranks);
+// Call on a rank that has failed. Waits until all other ranks call this function, and returns true if they do not do so
+// within 10 s; they can then only be terminated. Always false for null `ranks` (one process).
+bool only_this_rank_failed(const Ranks* ranks);
 // Throws std::runtime_error if the run failed on this rank only.
 void require_failure_of_all(const Ranks* ranks, const Outcome& outcome);
 

@@ -169,8 +169,9 @@ RunResult run_static_analysis(RunContext context) {
   RunResult result{.scene = context.scene, .folder = folder};
   result.ranks = num_ranks(context.request.ranks);
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
-  result.failed_alone = result.outcome.status == Outcome::Status::failed && failed_alone(problem.path->ranks());
-  if (!result.failed_alone) result.outcome.cpu_seconds = problem.path->space().sum(result.outcome.cpu_seconds);
+  result.only_this_rank_failed =
+      result.outcome.status == Outcome::Status::failed && only_this_rank_failed(problem.path->ranks());
+  if (!result.only_this_rank_failed) result.outcome.cpu_seconds = problem.path->space().sum(result.outcome.cpu_seconds);
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
     setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
     result.kinematics_restart = setup.linearity->kinematics_restart();
@@ -178,7 +179,7 @@ RunResult run_static_analysis(RunContext context) {
   }
   result.model = summarize(setup);
   observers.copy_to(result);
-  result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.failed_alone);
+  result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.only_this_rank_failed);
   record.finish(result);
   context.listener.on_result(result);
   return result;

@@ -96,7 +96,7 @@ void serve_job(const fs::path& folder, const std::function<Json(const Json&)>& w
     throw RunError("the program has changed since this study was started; start the study again");
   Json result = result_of([&] { return work(input); });
   const auto failure = failure_from(result);
-  if (failure && failed_alone(ranks)) throw std::runtime_error(failure->message);
+  if (failure && only_this_rank_failed(ranks)) throw std::runtime_error(failure->message);
   result["at"] = utc_now();
   write_result(folder, result);
 }
