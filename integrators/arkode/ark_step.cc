@@ -91,7 +91,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     for (int attempt = 0;; ++attempt) {
       require(ARKStepSetStopTime(memory(), t_stop));
       sunrealtype reached = t;  // after a failure, the time of a stage
-      const int flag = with_due_matrix([&] { return ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP); });
+      const int flag =
+          step_with_matrix_renewal([&] { return ARKStepEvolve(memory(), t_stop, y(), &reached, ARK_ONE_STEP); });
       if (flag >= 0) take_end(t = reached);
       if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == kMaxRetries || !retry_with_shorter_step()) return flag;
     }

@@ -52,7 +52,7 @@ class Cvode final : public SundialsIntegrator {
 
   int advance(double t_stop, double& t) override {
     require(CVodeSetStopTime(memory(), t_stop));
-    return with_due_matrix([&] { return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP); });
+    return step_with_matrix_renewal([&] { return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP); });
   }
 
   int last_order() const override {

@@ -65,7 +65,7 @@ void SundialsIntegrator::attach_linear_solver() {
   require(library_.set_linear_solver(memory(), newton_system_->solver(), newton_system_->matrix()));
 }
 
-int SundialsIntegrator::with_due_matrix(const std::function<int()>& attempt) {
+int SundialsIntegrator::step_with_matrix_renewal(const std::function<int()>& attempt) {
   if (!renewal_) return attempt();
   const auto rejected = [this] {
     long count = 0;

@@ -93,8 +93,9 @@ class SundialsIntegrator : public Integrator {
   void use_nonsmooth_newton();
   // Passes the Newton system to the library after its creation.
   void attach_linear_solver();
-  // Calls `attempt`, one step of the library, with a new matrix if one is due (renewal_policy.h). Returns its flag.
-  int with_due_matrix(const std::function<int()>& attempt);
+  // Calls `attempt`, which takes one step with the library, and makes the library renew Newton's matrix first if this
+  // is due (renewal_policy.h). Returns the flag of `attempt`.
+  int step_with_matrix_renewal(const std::function<int()>& attempt);
   // Derived classes call this when they restart the library, which then renews the matrix.
   void restart_renewal();
   // Throws RunError with the library's message if the flag is negative.
