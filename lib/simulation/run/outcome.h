@@ -18,8 +18,9 @@ struct Outcome {
   std::string remark;                  // of a completed run that an event stopped: the event
   Reason reason = Reason::other;       // of a failed run, for tables
   std::optional<double> stepped_over;  // start of the first step much longer than Model::step_limits() allows, s
-  std::optional<double> unresolved;    // StepLimits::unresolved() of the loads and motions, s
-  State last;                          // the last state reached
+  // Time of a change of a load or support motion that is too short for the step limits: StepLimits::unresolved(), s.
+  std::optional<double> unresolved_change;
+  State last;                 // the last state reached
   bool between_steps = true;  // false if an observer failed, so that not all observers have seen the last state
   double wall_seconds = 0, cpu_seconds = 0;
   Cost observation = {};  // see Statistics::observation

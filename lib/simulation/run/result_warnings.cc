@@ -85,11 +85,11 @@ void add_warnings(const Outcome& outcome, std::vector<std::string>& all) {
                 "the fixed step after t = {:.4g} s is longer than a load or a support motion allows, and misses part "
                 "of it. Lower integrator.step, or use error control (integrator.rtol)",
                 *outcome.stepped_over);
-  if (outcome.unresolved)
+  if (outcome.unresolved_change)
     add_warning(all,
                 "the formula of a load or a support jumps, or changes within less than 1/{} of the run, at t = {:.4g} "
                 "s: steps may miss it. List the times of jumps in `kinks`, or set integrator.h_max",
-                StepLimits::kMostParts, *outcome.unresolved);
+                StepLimits::kMostParts, *outcome.unresolved_change);
 }
 
 void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<std::string>& all) {

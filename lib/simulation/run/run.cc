@@ -56,7 +56,7 @@ class Driver {
         limits_(model.step_limits(outcome.last.t, plan.end)),
         outputs_(plan.output_times),
         history_(plan.history_times) {
-    outcome.unresolved = limits_.unresolved();
+    outcome.unresolved_change = limits_.unresolved();
     const double round_off =
         1000 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
     for (const double t : model.breakpoints(outcome.last.t, plan.end))
