@@ -59,33 +59,33 @@ FemOutput mean_of_cells(const TensorField& tensor) {
           }};
 }
 
-FemOutput at_nodes(const TensorField& tensor, int region = kAllRegions) {
+FemOutput at_nodes(const TensorField& tensor, const FieldParts& parts) {
   return {
       {fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
        fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
-      [&tensor, region](const View& view) { return tensor_at_nodes(view.recovered(), tensor, region); },
+      [&tensor, parts](const View& view) { return tensor_at_nodes(view.recovered(), tensor, parts); },
       Reduction::none,
-      [&tensor, region](const View& view, int node) { return tensor_at_node(view.recovered(), tensor, region, node); }};
+      [&tensor, parts](const View& view, int node) { return tensor_at_node(view.recovered(), tensor, parts, node); }};
 }
 
-FemOutput at_nodes(const DerivedField& derived, int region = kAllRegions) {
+FemOutput at_nodes(const DerivedField& derived, const FieldParts& parts) {
   const auto count = static_cast<int>(std::max<std::size_t>(derived.components.size(), 1));
   return {{derived.name, Location::node, count, derived.unit, derived.sentence, derived.components},
-          [&derived, region](const View& view) {
-            return derived_at_nodes(view.recovered(), view.parts().elastic, derived, region);
+          [&derived, parts](const View& view) {
+            return derived_at_nodes(view.recovered(), view.parts().elastic, derived, parts);
           },
           Reduction::none,
-          [&derived, region](const View& view, int node) {
-            return derived_at_node(view.recovered(), view.parts().elastic, derived, region, node);
+          [&derived, parts](const View& view, int node) {
+            return derived_at_node(view.recovered(), view.parts().elastic, derived, parts, node);
           }};
 }
 
 }  // namespace
 
-std::vector<FemOutput> nodal_outputs(int region) {
+std::vector<FemOutput> nodal_outputs(const FieldParts& parts) {
   std::vector<FemOutput> out;
-  for (const TensorField& tensor : tensor_fields()) out.push_back(at_nodes(tensor, region));
-  for (const DerivedField& derived : derived_fields()) out.push_back(at_nodes(derived, region));
+  for (const TensorField& tensor : tensor_fields()) out.push_back(at_nodes(tensor, parts));
+  for (const DerivedField& derived : derived_fields()) out.push_back(at_nodes(derived, parts));
   return out;
 }
 
@@ -274,7 +274,7 @@ std::vector<FemOutput> make_outputs() {
       std::find_if(all.begin(), all.end(), [](const FemOutput& o) { return o.info.name == "mesh_error"; });
   std::vector<FemOutput> stresses;
   for (const TensorField& tensor : tensor_fields()) stresses.push_back(mean_of_cells(tensor));
-  for (FemOutput& output : nodal_outputs(kAllRegions)) stresses.push_back(std::move(output));
+  for (FemOutput& output : nodal_outputs({})) stresses.push_back(std::move(output));
   all.insert(after, stresses.begin(), stresses.end());
   return all;
 }
@@ -306,9 +306,9 @@ std::vector<OutputInfo> FemModel::outputs() const {
   std::vector<OutputInfo> infos;
   for (const auto& output : all_outputs()) infos.push_back(output.info);
   for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
-  for (const auto& term : parts_.elastic)
+  for (const FieldRegion& region : field_regions(parts_.elastic))
     for (OutputInfo info : region_fields()) {
-      info.name = term->region() + "." + info.name;
+      info.name = region.name + "." + info.name;
       infos.push_back(std::move(info));
     }
   return infos;
@@ -320,7 +320,7 @@ std::unique_ptr<StateView> FemModel::view(const State& state) const {
 
 std::vector<OutputInfo> region_fields() {
   std::vector<OutputInfo> infos;
-  for (const FemOutput& output : nodal_outputs(kAllRegions)) infos.push_back(output.info);
+  for (const FemOutput& output : nodal_outputs({})) infos.push_back(output.info);
   return infos;
 }
 

@@ -33,10 +33,10 @@ FemOutput find_output(const FemModel::Parts& parts, const std::string& name) {
     if (output.info.name == name) return output;
   for (const auto& output : reaction_outputs(parts.supports))
     if (output.info.name == name) return output;
-  for (std::size_t r = 0; r < parts.elastic.size(); ++r) {
-    const std::string prefix = parts.elastic[r]->region() + ".";
+  for (const FieldRegion& region : field_regions(parts.elastic)) {
+    const std::string prefix = region.name + ".";
     if (!name.starts_with(prefix)) continue;
-    for (const FemOutput& output : nodal_outputs(static_cast<int>(r)))
+    for (const FemOutput& output : nodal_outputs(region.parts))
       if (prefix + output.info.name == name) return output;
   }
   throw std::logic_error("no output named " + name);

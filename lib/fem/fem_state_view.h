@@ -74,9 +74,7 @@ const std::vector<FemOutput>& all_outputs();
 // Reaction force and torque of each support; `supports` must outlive the result.
 std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports);
 
-// Outputs of stress and strain at the nodes of one region (index of an elastic term) or of kAllRegions; NaN at other
-// nodes.
-inline constexpr int kAllRegions = -1;
-std::vector<FemOutput> nodal_outputs(int region);
+// Outputs of stress and strain at the nodes of these parts (nodal_fields.h); NaN at other nodes.
+std::vector<FemOutput> nodal_outputs(const FieldParts& parts);
 
 }  // namespace orthodyn

@@ -51,12 +51,19 @@ const TensorField& tensor_of(const DerivedField& derived) {
 
 std::size_t num_components(const DerivedField& derived) { return std::max<std::size_t>(derived.components.size(), 1); }
 
-// The region, or all of them if it is negative.
-std::vector<std::size_t> regions_of(int region, std::size_t count) {
-  if (region >= 0) return {static_cast<std::size_t>(region)};
-  std::vector<std::size_t> all(count);
+// The given parts, or all of them if none are given.
+FieldParts chosen(const FieldParts& parts, std::size_t count) {
+  if (!parts.empty()) return parts;
+  FieldParts all(count);
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
+}
+
+// Adds an elastic term to the region of this name.
+void add_part(const std::string& name, std::size_t term, std::vector<FieldRegion>& regions) {
+  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.name == name; });
+  if (found == regions.end()) regions.push_back({name, {term}});
+  else found->parts.push_back(term);
 }
 
 // Replaces the values at `at` if the first of them is NaN or less than values[0].
@@ -128,56 +135,66 @@ std::optional<StressRecovery::NodalValue> RecoveredTensors::at(const TensorField
   return StressRecovery::NodalValue{Vec6(values.row(row)), (*inside)[static_cast<std::size_t>(row)] != 0};
 }
 
-std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region) {
-  std::vector<double> out(6 * recovered.num_nodes(), region < 0 ? 0 : kNone);
+std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, const FieldParts& parts) {
+  std::vector<double> out(6 * recovered.num_nodes(), 0);
   const auto at = [&](std::size_t node) { return Eigen::Map<Vec6>(out.data() + 6 * node); };
-  if (region >= 0) {
-    for_each_node(recovered, tensor, static_cast<std::size_t>(region),
-                  [&](std::size_t node, const Vec6& value, bool) { at(node) = value; });
-    return out;
-  }
   std::vector<int> count(recovered.num_nodes(), 0);
-  for (std::size_t r = 0; r < recovered.num_regions(); ++r)
+  for (const std::size_t r : chosen(parts, recovered.num_regions()))
     for_each_node(recovered, tensor, r, [&](std::size_t node, const Vec6& value, bool inside) {
-      if (!inside) return;
+      if (!inside && parts.empty()) return;
       at(node) += value;
       ++count[node];
     });
-  for (std::size_t node = 0; node < count.size(); ++node) at(node) /= std::max(count[node], 1);
+  for (std::size_t node = 0; node < count.size(); ++node) {
+    if (count[node] > 1) at(node) /= count[node];
+    if (count[node] == 0 && !parts.empty()) at(node).setConstant(kNone);
+  }
   return out;
 }
 
 std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
-                                     const DerivedField& derived, int region) {
+                                     const DerivedField& derived, const FieldParts& parts) {
   const std::size_t count = num_components(derived);
   std::vector<double> out(count * recovered.num_nodes(), kNone);
-  for (const std::size_t r : regions_of(region, terms.size()))
+  for (const std::size_t r : chosen(parts, terms.size()))
     for_each_node(recovered, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor, bool) {
       raise(derived.of(tensor, terms[r]->definition()), out.data() + count * node);
     });
   return out;
 }
 
-std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, int region, int node) {
+std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, const FieldParts& parts,
+                                   int node) {
   Vec6 sum = Vec6::Zero();
   int count = 0;
-  for (const std::size_t r : regions_of(region, recovered.num_regions()))
-    if (const auto found = recovered.at(tensor, r, node); found && (found->inside || region >= 0)) {
+  for (const std::size_t r : chosen(parts, recovered.num_regions()))
+    if (const auto found = recovered.at(tensor, r, node); found && (found->inside || !parts.empty())) {
       sum += found->value;
       ++count;
     }
-  if (count == 0 && region >= 0) return std::vector<double>(6, kNone);
+  if (count == 0 && !parts.empty()) return std::vector<double>(6, kNone);
   sum /= std::max(count, 1);
   return {sum.begin(), sum.end()};
 }
 
 std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
-                                    const DerivedField& derived, int region, int node) {
+                                    const DerivedField& derived, const FieldParts& parts, int node) {
   std::vector<double> out(num_components(derived), kNone);
-  for (const std::size_t r : regions_of(region, terms.size()))
+  for (const std::size_t r : chosen(parts, terms.size()))
     if (const auto found = recovered.at(tensor_of(derived), r, node))
       raise(derived.of(found->value, terms[r]->definition()), out.data());
   return out;
+}
+
+std::vector<FieldRegion> field_regions(const StressRecovery::Terms& terms) {
+  std::vector<FieldRegion> regions;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const ElasticRegion& own = terms[k]->definition();
+    const std::string& joined = own.ply.empty() ? own.mesh_region : own.ply;
+    add_part(own.name, k, regions);
+    if (!joined.empty() && joined != own.name) add_part(joined, k, regions);
+  }
+  return regions;
 }
 
 }  // namespace orthodyn

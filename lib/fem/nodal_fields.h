@@ -68,16 +68,30 @@ class RecoveredTensors {
   std::map<std::tuple<const TensorField*, std::size_t, int>, std::optional<StressRecovery::NodalValue>> kept_at_;
 };
 
-// Values at all nodes of the mesh, node by node; NaN outside the region. `region`: index of an elastic term, or -1 for
-// all regions. At a node of several regions, a tensor is then the mean and a derived field the largest value.
-std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region);
+// The elastic terms (by index) over which a field is evaluated; empty for the whole body.
+using FieldParts = std::vector<std::size_t>;
+
+// Values at all nodes of the mesh, node by node; NaN outside the parts. At a node of several parts, a tensor is the
+// mean and a derived field the largest value.
+std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, const FieldParts& parts);
 std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
-                                     const DerivedField& derived, int region);
+                                     const DerivedField& derived, const FieldParts& parts);
 
 // The same at one node.
-std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, int region, int node);
+std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorField& tensor, const FieldParts& parts,
+                                   int node);
 std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
-                                    const DerivedField& derived, int region, int node);
+                                    const DerivedField& derived, const FieldParts& parts, int node);
+
+// A name that may stand before a field, as in NAME.FIELD: a region, a ply, or the part of either that one elastic term
+// computes.
+struct FieldRegion {
+  std::string name;
+  FieldParts parts;
+};
+
+// All such names. The parts of a ply have different numbers on different meshes; the ply's name is valid on all.
+std::vector<FieldRegion> field_regions(const StressRecovery::Terms& terms);
 
 // The fields that are available for each region, as the output "REGION.FIELD".
 std::vector<OutputInfo> region_fields();

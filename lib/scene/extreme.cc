@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/spelling.h"
 #include "lib/fem/element_mesh.h"
 #include "lib/fem/fem_model.h"
 #include "lib/fem/nodal_fields.h"
@@ -22,11 +23,12 @@ bool needs_strength(const std::string& field) {
   });
 }
 
-// The region of REGION.FIELD; null for a field of the whole body.
-const ElasticTerm* region_of(const std::string& field, const FemModel& model) {
-  for (const auto& term : model.parts().elastic)
-    if (field.starts_with(term->region() + ".")) return term.get();
-  return nullptr;
+// The region of REGION.FIELD; "" for a field of the whole body.
+std::string region_of(const std::string& field, const FemModel& model) {
+  std::string longest;
+  for (const FieldRegion& region : field_regions(model.parts().elastic))
+    if (field.starts_with(region.name + ".") && region.name.size() > longest.size()) longest = region.name;
+  return longest;
 }
 
 // A component of a field of one region, or of the whole body if `region` is "".
@@ -98,6 +100,29 @@ bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm&
   }));
 }
 
+// The elastic terms of the region, or of the whole body if it is "", that have the node. Collective.
+std::vector<const ElasticTerm*> terms_at(int node, const std::string& region, const ElementMesh& mesh,
+                                         const FemModel& model) {
+  std::vector<const ElasticTerm*> terms;
+  for (const auto& term : model.parts().elastic)
+    if ((region.empty() || is_of(*term, region)) && has_node(model, mesh, *term, node)) terms.push_back(term.get());
+  return terms;
+}
+
+// Throws ConfigError if `name` is an extreme of a known field in an unknown region.
+void refuse_unknown_region(const std::string& name, const FemModel& model, const SourceLocation& origin) {
+  std::vector<std::string> known = region_names(model);
+  known.erase(known.begin());  // the whole body
+  for (const OutputInfo& info : region_fields()) {
+    const auto begin = name.find("." + info.name + ".");
+    if (begin == std::string::npos) continue;
+    const std::string region = name.substr(0, begin);
+    if (std::find(known.begin(), known.end(), region) == known.end())
+      origin.fail(fmt::format("'{}': no region or ply '{}'{} There are {}", name, region,
+                              did_you_mean(region, known, "."), join(known)));
+  }
+}
+
 void fail_without_strength(const std::string& field, const std::string& what, const SourceLocation& origin) {
   origin.fail(
       fmt::format("'{}' needs the strengths of {}: add strength: {{tension: [...], compression: [...], shear: [...]}} "
@@ -110,8 +135,7 @@ void fail_without_strength(const std::string& field, const std::string& what, co
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
                        const SourceLocation& origin) {
   if (!needs_strength(field)) return;
-  const ElasticTerm* const named = region_of(field, model);
-  const std::string& wanted = named ? named->region() : region;
+  const std::string named = region_of(field, model), wanted = named.empty() ? region : named;
   for (const auto& term : model.parts().elastic)
     if ((wanted.empty() || is_of(*term, wanted)) && term->definition().strength) return;
   fail_without_strength(field, wanted.empty() ? "a material" : "the material of region " + wanted, origin);
@@ -119,19 +143,15 @@ void require_strengths(const std::string& field, const std::string& region, cons
 
 void require_field_at(const std::string& field, int node, const FemModel& model, const SourceLocation& origin) {
   const ElementMesh mesh(model.parts().mesh);
-  const ElasticTerm* const named = region_of(field, model);
-  if (named && !has_node(model, mesh, *named, node))
-    origin.fail(
-        fmt::format("'{}': the probe's node is not in region {}; move the probe, or use the field without a region",
-                    field, named->region()));
+  const std::string named = region_of(field, model);
+  const std::vector<const ElasticTerm*> terms = terms_at(node, named, mesh, model);
+  if (terms.empty())
+    origin.fail(fmt::format(
+        "'{}': the probe's node is not in region {}; move the probe, or use the field without a region", field, named));
   if (!needs_strength(field)) return;
-  std::string region;
-  for (const auto& term : model.parts().elastic) {
-    if ((named && term.get() != named) || !has_node(model, mesh, *term, node)) continue;
+  for (const ElasticTerm* term : terms)
     if (term->definition().strength) return;
-    region = term->region();
-  }
-  fail_without_strength(field, "the material of region " + region, origin);
+  fail_without_strength(field, "the material of region " + terms.back()->region(), origin);
 }
 
 std::string unit_of_extreme(const std::string& name) {
@@ -147,7 +167,7 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
   const std::string which = name.substr(dot + 1);
   if (which != "largest" && which != "smallest") return std::nullopt;
   const auto field = read_field(name.substr(0, dot), model);
-  if (!field) return std::nullopt;
+  if (!field) return refuse_unknown_region(name, model, origin), std::nullopt;
   require_strengths(field->field, field->region, model, origin);
   const double sign = which == "largest" ? 1 : -1;
   return [fields = fields_of_terms(*field, model), field = *field, sign](const ObservedState& observed) {

@@ -74,7 +74,7 @@ TEST_P(Views, ATensorIsRecoveredOnceForAllThatIsMadeOfIt) {
   const int once = looks;
   EXPECT_GT(once, 0);
   EXPECT_EQ(&view.recovered().of(counted, 0), &first);
-  EXPECT_EQ(tensor_at_nodes(view.recovered(), counted, 0).size(), 6 * scene.mesh().nodes.size());
+  EXPECT_EQ(tensor_at_nodes(view.recovered(), counted, {0}).size(), 6 * scene.mesh().nodes.size());
   EXPECT_EQ(looks, once);
   EXPECT_EQ(&view.mesh_errors(), &view.mesh_errors());
 }

@@ -56,5 +56,26 @@ TEST_F(RegionFields, AreRefusedWhereTheRegionIsNotOrHasNoStrength) {
   EXPECT_NE(unknown.output.find("did you mean 'upper.von_mises'"), std::string::npos) << unknown.output;
 }
 
+// The finer mesh of the error estimate has two cells through the thickness and divides the middle ply.
+TEST_F(RegionFields, OfAPlyHaveAMeshErrorWhateverItsNumberOfParts) {
+  write("plies.yaml", R"(
+analysis: static
+mesh: {type: box, size: [0.2, 0.1, 0.003], cells: [4, 2, 1], elements: hexahedra}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
+regions: {body: {layup: [[m, 0, 1 mm], [m, 90 deg, 1 mm], [m, 0, 1 mm]], axes: {first: [1, 0, 0], second: [0, 1, 0]}}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -0.01]}]
+output: {probes: {p: {at: [0.1, 0.05, 0.003], fields: [body.ply_2.von_mises]}}}
+)");
+  const auto result = orthodyn("run plies.yaml --out out");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("body.ply_2.von_mises of p"), std::string::npos) << result.output;
+  const auto wrong = orthodyn("run plies.yaml --force --out out --set output.extremes=[body.ply_4.von_mises.largest]");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.output.find("no region or ply 'body.ply_4'; did you mean 'body.ply_1'? There are body, body.ply_1"),
+            std::string::npos)
+      << wrong.output;
+}
+
 }  // namespace
 }  // namespace orthodyn::region_fields_test
