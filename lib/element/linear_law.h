@@ -68,15 +68,11 @@ class LinearLaw {
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
 
-  VolumeStrain<double> volume_strain(const Mat3& H, const Mat3& Q) const {
-    return {small_strain<double>(H, Q).trace(), Q, Mat3::Zero()};
+  static constexpr bool kHasVolumeCurvature = false;
+  template <class T, class Axes>
+  VolumeStrain<T> volume_strain(const Mat3T<T>& H, const Axes& Q) const {
+    return {small_strain<T>(H, Q).trace(), Q.template cast<T>(), Q.template cast<T>()};
   }
-  template <class Axes>
-  VolumeStrain<Batch> batch_volume_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
-    good = not_nan(H);
-    return {small_strain<Batch>(H, Q).trace(), Q.template cast<Batch>(), Mat3T<Batch>::Zero()};
-  }
-  Mat3 cauchy_of_volumetric(double s, const Mat3&, const Mat3&) const { return s * Mat3::Identity(); }
   Mat3 mean_volume_gradient(const Mat3&, const Mat3&, const Mat3& Q) const { return Q; }
 
   Form tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, Form* damping) const {

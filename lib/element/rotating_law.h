@@ -67,33 +67,13 @@ class RotatingLaw {
     return contract<Batch>(viscous_stress<Batch>(p, C_, Batch(beta), F_rate), F_rate);
   }
 
-  VolumeStrain<double> volume_strain(const Mat3& H, const Mat3& Q) const {
-    const auto p = polar(deformation_gradient<double>(H, Q), Q);
-    const Mat3 e = stretch_strain<double>(H, Q, p.S);
-    return {e.trace(), p.R, is_regular<double>(p.S, p.det_G) ? p.G_inverse : Mat3(Mat3::Zero())};
+  static constexpr bool kHasVolumeCurvature = true;
+  template <class T, class Axes>
+  ORTHODYN_FLATTEN VolumeStrain<T> volume_strain(const Mat3T<T>& H, const Axes& Q) const {
+    return volume_change<T>(H, Q);
   }
-  template <class Axes>
-  ORTHODYN_FLATTEN VolumeStrain<Batch> batch_volume_strain(const Mat3T<Batch>& H, const Axes& Q,
-                                                           Batch::Mask& good) const {
-    Polar<Batch> p;
-    good = regular_polar(H, Q, p);
-    return {stretch_strain<Batch>(H, Q, p.S).trace(), p.R, p.G_inverse};
-  }
-
-  // The Cauchy stress that corresponds to P = s R, the stress of an energy with d Psi / d theta = s for the volume
-  // strain theta, since R = d theta / dF. NaN if det F <= 0.
-  Mat3 cauchy_of_volumetric(double s, const Mat3& H, const Mat3& Q) const {
-    const Mat3 F = deformation_gradient<double>(H, Q);
-    return cauchy_stress(s * polar(F, Q).R, F);
-  }
-
-  // Returns the D that satisfies D : (F1 - F0) = theta1 - theta0 for the volume strain theta, with D (F0 + F1)^T
-  // symmetric: D = (F0 + F1)/2 s^-1 with s = (S0 + S1)/2. This is mean_stress() of corotational_law.h for the stress I.
-  // Precondition: s is not singular.
   Mat3 mean_volume_gradient(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
-    const Mat3 F0 = deformation_gradient<double>(H0, Q), F1 = deformation_gradient<double>(H1, Q);
-    const Mat3 s = 0.5 * (polar(F0, Q).S + polar(F1, Q).S);
-    return 0.5 * (F0 + F1) * s.inverse();
+    return orthodyn::mean_volume_gradient(H0, H1, Q);
   }
 
   PointObservation observe(const Mat3& H, const Mat3& Q) const {

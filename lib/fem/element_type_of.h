@@ -100,8 +100,9 @@ class ElementTypeOf final : public ElementType {
   std::unique_ptr<ElasticTerm> mixed_term(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
                                           const BlockPattern& pattern) const {
     constexpr bool kProjectsAll = E::kDegree == 1 || E::kPressures > 1;
-    const double kappa = kProjectsAll ? bulk_modulus(stiffness) : excess_bulk_modulus(stiffness);
-    const C rest = without_bulk(stiffness, kappa);
+    const double all = volumetric_modulus(stiffness), projected = kProjectsAll ? all : excess_bulk_modulus(stiffness);
+    const BulkModuli kappa{projected, all - projected};
+    const C rest = without_bulk(stiffness, all);
     const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
       return std::make_unique<MixedElasticTermOf<E, std::decay_t<decltype(law)>>>(
           *this, mesh, std::move(region), law, kappa, pattern, rule_ ? &*rule_ : nullptr);

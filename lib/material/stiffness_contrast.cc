@@ -36,6 +36,10 @@ double contrast_without_bulk(const Stiffness& stiffness) {
   return eigenvalues_of(rest).values[5] / eigenvalues_of(C).values[0];
 }
 
+double volumetric_modulus(const Stiffness& stiffness) {
+  return std::max(bulk_modulus(stiffness) - eigenvalues_of(voigt(stiffness)).values[0] / 3, 0.0);
+}
+
 double excess_bulk_modulus(const Stiffness& stiffness) {
   constexpr double kOfSmallest = 2;
   return std::max(bulk_modulus(stiffness) - kOfSmallest * eigenvalues_of(voigt(stiffness)).values[0], 0.0);

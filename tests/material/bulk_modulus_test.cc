@@ -1,6 +1,8 @@
 // The bulk modulus of every stiffness, the stiffness without it, and the contrast of stiffnesses.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "lib/material/stiffness_contrast.h"
 #include "tests/material/constants.h"
 
@@ -46,6 +48,18 @@ TEST(WithoutBulk, IsWithoutStressUnderPressureAndElsePositive) {
   expect_no_stress_under_pressure(isotropic_stiffness(7, 0.49));
   expect_no_stress_under_pressure(spruce_stiffness());
   expect_no_stress_under_pressure(random_stiffness(802));
+}
+
+TEST(VolumetricModulus, IsLamesConstantOrLeavesAPositiveStiffness) {
+  const IsotropicStiffness c = isotropic_stiffness(7, 0.4);
+  EXPECT_NEAR(volumetric_modulus(c), c.lambda, 1e-12 * c.lambda);
+  EXPECT_NEAR(volumetric_modulus(isotropic_stiffness(7, 0)), 0, 1e-12);
+  for (const Stiffness& other : {Stiffness(spruce_stiffness()), Stiffness(random_stiffness(803))}) {
+    const double k = volumetric_modulus(other);
+    EXPECT_GT(k, 0);
+    const Mat6 rest = std::visit([&](const auto& C) { return Mat6(voigt(without_bulk(C, k))); }, other);
+    EXPECT_EQ(Eigen::LLT<Mat6>(rest).info(), Eigen::Success);
+  }
 }
 
 TEST(ExcessBulkModulus, IsTheBulkModulusBeyondFourShearModuli) {

@@ -8,7 +8,7 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
-#include "tests/fem/built_scene.h"
+#include "tests/problems/running.h"
 
 namespace orthodyn::nearly_incompressible_test {
 namespace {
@@ -152,6 +152,39 @@ TEST(NearlyIncompressible, HasTheStrainOfAnisotropicBodiesUnderPressure) {
   EXPECT_GT(strain.maxCoeff(), 0);  // in one direction it grows
   const Vector expected = s.dofs([&](const Vec3& x) { return Vec3(strain.cwiseProduct(x)); });
   EXPECT_LT((linear_static(s) - expected).norm(), 1e-9 * expected.norm());
+}
+
+// A uniform stretch has the energy mu |S - I|^2 + lambda/2 (J - 1)^2, whatever the element.
+class Stretched : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Kind, Stretched, testing::ValuesIn(kKinds), [](const auto& one) { return one.param.name; });
+
+TEST_P(Stretched, HasTheEnergyOfItsShapeAndOfItsVolume) {
+  Mesh mesh = make_box({.size = Vec3::Ones(), .cells = {2, 1, 1}, .elements = GetParam().elements});
+  make_quadratic(mesh);
+  if (GetParam().centres) add_centres(mesh);
+  given_mesh() = mesh;
+  const double young = 1e6, nu = 0.4999, mu = young / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu);
+  const BuiltTestScene s("mesh: {type: given}\nmaterials: {m: " + isotropic(nu) +
+                         "}\nregions: {all: {material: m}}\ntime: {end: 1}\n");
+  Random random(801);
+  const Mat3 R = random.rotation();
+  for (const Vec3& stretches : {Vec3(1.5, 0.8, 1 / 1.2), Vec3(0.6, 1 / 0.6, 1), Vec3(1.001, 1, 1)}) {
+    const double J_1 = stretches.prod() - 1;
+    const double expected = mu * (stretches - Vec3::Ones()).squaredNorm() + lambda / 2 * J_1 * J_1;
+    const Mat3 F = R * stretches.asDiagonal();
+    EXPECT_NEAR(s.potential(s.dofs([&](const Vec3& x) { return Vec3(F * x - x); })), expected, 1e-9 * expected);
+  }
+}
+
+// A block between bonded plates, compressed by a tenth. Its volume is to stay.
+TEST(NearlyIncompressible, KeepsItsVolumeInLargeDeformation) {
+  const BuiltTestScene s(
+      "mesh: {type: box, size: [1, 1, 0.4], cells: [4, 4, 3], elements: hexahedra}\nmaterials: {m: " +
+      isotropic(0.4999) +
+      "}\nregions: {all: {material: m}}\nanalysis: static\nclamps: [{surface: z0}]\n"
+      "motions: [{surface: z1, displacement: [0, 0, -0.04]}]\n");
+  const State end{s.scene.time.end, equilibrium(s.scene, s.built), s.zero()};
+  EXPECT_GT(s.model().evaluate("det_f.smallest", end)[0], 0.9);
 }
 
 }  // namespace

@@ -237,17 +237,10 @@ class ElasticTermOf : public ElasticTerm {
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
-  // The part that add_tangents() adds to the law's tangent in one batch: nothing. MixedElasticTermOf has another such
-  // class for the volumetric stress.
+  // What add_tangents() adds to the law's tangent in one batch: nothing. MixedElasticTermOf has another such class, for
+  // the volumetric stress.
   struct NothingElse {
-    template <class Form>
-    void add_to(int, Form&) const {}
-    template <class Form>
-    void add_to_lane(int, int, Form&) const {}
-    template <class Blocks>
-    void add_to(double, bool, Blocks&) const {}
-    template <class Blocks>
-    void add_to_lane(double, bool, int, Blocks&) const {}
+    static constexpr bool kIsEmpty = true;
   };
 
   // As add_tangent() and add_predicted_tangent(), with part_of(b) added for each batch.
@@ -267,11 +260,9 @@ class ElasticTermOf : public ElasticTerm {
       loops_.for_each_batch([&](int b) {
         const auto part = part_of(b);
         loops_.for_each_of(b, [&](int k) {
-          add_element(k, K, 1, part, [&](int p) {
-            Form form = law_.predicted_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u),
-                                               axes().of(k, p));
-            part.add_to_lane(p, k % Batch::kLanes, form);
-            return form;
+          add_element_stiffness(k, K, part, [&](int p) {
+            return law_.predicted_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u),
+                                          axes().of(k, p));
           });
         });
       });
@@ -352,11 +343,23 @@ class ElasticTermOf : public ElasticTerm {
     volume_excess_ = std::max(volume_excess_, sum / (region_.share * E::mass(X, 1)));
   }
 
-  // Adds an element's matrix, and `factor` times the part's.
+  template <class Part, class FormAt>
+  void add_element_stiffness(int k, double* values, const Part& part, FormAt&& form_at) const {
+    assembly_.add_element(k, values, form_at, [&](ElementBlocks<E::kNodes>& blocks) {
+      if constexpr (!Part::kIsEmpty) {
+        const int lane = k % Batch::kLanes;
+        for (int p = 0; p < num_points(); ++p)
+          part.add_curvature_of_lane(p, lane, elements_.point(k, p), assembly_.symmetric(), blocks);
+        part.add_to_lane(1, assembly_.symmetric(), lane, blocks);
+      }
+    });
+  }
+
+  // Adds an element's matrix, and `factor` times the part's sum over points.
   template <class Part, class FormAt>
   void add_element(int k, double* values, double factor, const Part& part, FormAt&& form_at) const {
     assembly_.add_element(k, values, form_at, [&](ElementBlocks<E::kNodes>& blocks) {
-      part.add_to_lane(factor, assembly_.symmetric(), k % Batch::kLanes, blocks);
+      if constexpr (!Part::kIsEmpty) part.add_to_lane(factor, assembly_.symmetric(), k % Batch::kLanes, blocks);
     });
   }
 
@@ -371,11 +374,7 @@ class ElasticTermOf : public ElasticTerm {
         form_at(p, &damping);
         return damping;
       });
-    add_element(k, K, 1, part, [&](int p) {
-      Form form = form_at(p, nullptr);
-      part.add_to_lane(p, k % Batch::kLanes, form);
-      return form;
-    });
+    add_element_stiffness(k, K, part, [&](int p) { return form_at(p, nullptr); });
   }
 
   // Returns false and adds nothing if an element of the batch is inverted or degenerate, or the law has no batch
@@ -388,16 +387,18 @@ class ElasticTermOf : public ElasticTerm {
       for (int p = 0; p < num_points(); ++p) {
         typename Law::BatchForm damping_form;
         Batch::Mask good;
-        auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
-                                       D ? &damping_form : nullptr, good);
+        const auto form = law_.batch_tangent(elements_.gradients(b, p, u), axes().batch(b, p), kind, region_.beta,
+                                             D ? &damping_form : nullptr, good);
         if (!all(good)) return false;
-        part.add_to(p, form);
         const auto points = elements_.points(b, p);
         add_point_stiffness<E::kNodes>(form, points, assembly_.symmetric(), p == 0, stiffness);
+        if constexpr (!Part::kIsEmpty) part.add_curvature(p, points, assembly_.symmetric(), stiffness);
         if (D) add_point_stiffness<E::kNodes>(damping_form, points, assembly_.symmetric(), p == 0, damping);
       }
-      part.add_to(1, assembly_.symmetric(), stiffness);
-      if (D) part.add_to(region_.beta, assembly_.symmetric(), damping);
+      if constexpr (!Part::kIsEmpty) {
+        part.add_to(1, assembly_.symmetric(), stiffness);
+        if (D) part.add_to(region_.beta, assembly_.symmetric(), damping);
+      }
       assembly_.add_batch(b, stiffness, K);
       if (D) assembly_.add_batch(b, damping, D);
       return true;
