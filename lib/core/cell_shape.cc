@@ -62,12 +62,12 @@ const CellTopology& topology(CellShape shape) {
   static const CellTopology tet4 = make("tetrahedron", "tetrahedra", 10, 4, {}, kTetSides);
   static const CellTopology tet10 =
       make("quadratic tetrahedron", "quadratic tetrahedra", 24, 4, kTetEdgeCorners, kTetSides);
-  static const CellTopology wedge6 = make("wedge", "wedges", 13, 6, {}, kWedgeSides);
+  static const CellTopology wedge6 = make("wedge of 6 nodes", "wedges of 6 nodes", 13, 6, {}, kWedgeSides);
   static const CellTopology wedge15 =
       make("wedge of 15 nodes", "wedges of 15 nodes", 26, 6, kWedgeEdgeCorners, kWedgeSides);
   static const CellTopology wedge18 =
       make("wedge of 18 nodes", "wedges of 18 nodes", 32, 6, with_centres(kWedgeEdgeCorners, kWedgeSides), kWedgeSides);
-  static const CellTopology hex8 = make("hexahedron", "hexahedra", 12, 8, {}, kHexSides);
+  static const CellTopology hex8 = make("hexahedron of 8 nodes", "hexahedra of 8 nodes", 12, 8, {}, kHexSides);
   static const CellTopology hex20 =
       make("hexahedron of 20 nodes", "hexahedra of 20 nodes", 25, 8, kHexEdgeCorners, kHexSides);
   static const CellTopology hex27 = make("hexahedron of 27 nodes", "hexahedra of 27 nodes", 29, 8,

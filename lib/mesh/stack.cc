@@ -87,8 +87,9 @@ void turn_along(Mesh& mesh, int cell, const Vec3& direction) {
   });
   const std::string& region = mesh.region_names[at(mesh.region_of[at(cell)])];
   if (!is_layered_shape)
-    throw ConfigError("mesh", fmt::format("region '{}' has {}; a layup needs quadratic hexahedra or wedges (a box: "
-                                          "`elements: hexahedra`; a file of linear ones: `order: 2`)",
+    throw ConfigError("mesh", fmt::format("region '{}' has {}; a layup needs quadratic hexahedra or wedges. In a box, "
+                                          "write `elements: hexahedra` without `order: 1` or `split`; for a file of "
+                                          "linear ones, `order: 2`",
                                           region, topology(mesh.cells.shape(at(cell))).plural));
   if (!is_turned)
     throw ConfigError("mesh",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,7 @@
 #include "lib/mesh/selection.h"
 #include "lib/scene/quantity.h"
 #include "lib/simulation/error_estimate/finer_model.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::layup_test {
@@ -342,6 +344,46 @@ TEST(Plies, HaveExtremesOfAllTheirParts) {
   EXPECT_GT(largest("body"), of_soft);
 }
 
+// The name of a ply is valid on each mesh, whatever the number of its parts.
+TEST(Plies, HaveFieldsByTheirNameOnEachMesh) {
+  const auto bent = [](const Vec3& x) { return Vec3(x[0] * (x[2] - 0.1), 0, -x[0] * x[0] / 2); };
+  for (const char* cells : {"[2, 2, 1]", "[2, 2, 2]", "[2, 2, 4]"}) {
+    const BuiltTestScene s(box(cells) + kMaterials + region(kThree) + "elasticity: {kinematics: linear}\n");
+    const State state{0, s.dofs(bent), s.zero()};
+    const auto fields = s.model().outputs();
+    EXPECT_TRUE(std::ranges::any_of(fields, [](const auto& f) { return f.name == "body.ply_2.nodal_strain"; }));
+    const auto strain = s.model().evaluate("body.ply_2.nodal_strain", state);
+    const int middle = nearest_node(s.mesh(), {0.5, 0.25, 0.1}), above = nearest_node(s.mesh(), {0.5, 0.25, 0.15});
+    EXPECT_NEAR(strain[6 * static_cast<std::size_t>(middle)], 0, 1e-12) << cells;
+    EXPECT_NEAR(s.model().view(state)->evaluate_at("body.ply_2.nodal_strain", middle, 6)[0], 0, 1e-12) << cells;
+    if (cells == std::string("[2, 2, 4]")) {  // a node at the top of the ply
+      EXPECT_NEAR(strain[6 * static_cast<std::size_t>(above)], 0.05, 1e-12);
+    }
+    EXPECT_EQ(s.model().evaluate("body.ply_2.von_mises", state).size(), s.mesh().nodes.size());
+    EXPECT_NO_THROW(FinerModel(s.scene, s.model()).model().outputs());
+  }
+}
+
+std::string layer_warning(const std::string& cells, const std::string& size, const std::string& layup) {
+  const Config scene = Config::from_text(box(cells, "hexahedra", size) + kMaterials + region(layup) +
+                                             "clamps: [{surface: x0}, {surface: x1}]\ngravity: [0, 0, -1]\n",
+                                         "scene.yaml");
+  for (const std::string& warning : scene_warnings(scene))
+    if (warning.find("transverse shear") != std::string::npos) return warning;
+  return "";
+}
+
+// The plies' moduli against transverse shear are 0.6 and 0.125; the missing shear of a clamped span is
+// (2 pi h / L)^2 / 12 E (1/G_true - 1/G_cell).
+TEST(Plies, ThatShareACellAreToldIfTheyDifferInShear) {
+  const std::string three = "[[stiff, 0, 0.01], [soft, 0, 0.02], [stiff, 0, 0.01]]";
+  const std::string found = layer_warning("[8, 4, 1]", "[1, 0.5, 0.04]", three);
+  EXPECT_NE(found.find("plies that share a cell"), std::string::npos);
+  EXPECT_EQ(layer_warning("[8, 4, 4]", "[1, 0.5, 0.04]", three), "");
+  EXPECT_EQ(layer_warning("[8, 4, 1]", "[100, 50, 0.04]", three), "");  // slender: bending only
+  EXPECT_EQ(layer_warning("[8, 4, 1]", "[1, 0.5, 0.04]", "[[stiff, 0, 0.02], [stiff, 0, 0.02]]"), "");
+}
+
 TEST(Plies, MayBeOneOnly) {
   const BuiltTestScene s(box("[2, 2, 1]") + kMaterials + region("[[stiff, 0, 0.2]]"));
   const auto find = find_extreme("body.tsai_wu.largest", s.model(), {});
@@ -365,6 +407,9 @@ TEST(Plies, AreRefusedWithTheReason) {
   expect(box("[2, 2, 1]", "tetrahedra") + kMaterials + region(kThree), "a layup needs quadratic hexahedra or wedges");
   expect(box("[2, 2, 1]", "wedges") + kMaterials + region(kThree, "{first: [0, 1, 0], second: [0, 0, 1]}"),
          "no axis of cell 0 is within about 45 degrees of axis 3");
+  expect("mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}\n" + kMaterials +
+             region(kThree),
+         "has hexahedra of 8 nodes; a layup needs quadratic hexahedra or wedges");
   expect(box("[2, 2, 1]") + kMaterials + region("[[oak, 0, 0.2]]"), "'oak' is not among the materials: stiff, soft");
   expect(box("[2, 2, 1]") + kMaterials + "regions: {body: {material: soft, layup: [[soft, 0, 0.2]]}}\ntime: {end: 1}",
          "has no effect beside a layup");

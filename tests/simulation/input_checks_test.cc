@@ -68,6 +68,18 @@ TEST(InputChecks, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
 }
 
 // With linear kinematics a rotated body grows by 1/cos of the angle.
+TEST(InputChecks, ANearlyIncompressibleMaterialIsNotForLinearTetrahedra) {
+  const auto block = [](const std::string& mesh) {
+    return findings_of("mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], " + mesh +
+                       "}\nmaterials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.4999}}\n"
+                       "clamps: [{surface: z0}]\ngravity: [0, 0, -9.81]\nanalysis: static\n")
+        .words;
+  };
+  EXPECT_THAT(block("order: 1"), HasSubstr("tetrahedra are then far too stiff (locking)"));
+  for (const char* other : {"order: 2", "elements: hexahedra, order: 1", "elements: wedges, order: 1"})
+    EXPECT_THAT(block(other), Not(HasSubstr("locking"))) << other;
+}
+
 TEST(InputChecks, AFreeBodyThatTurnsIsNotForLinearKinematics) {
   const auto spun = [](double spin, const std::string& kinematics) {
     return findings_of(fmt::format("mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2]}}\n"

@@ -60,6 +60,8 @@ void check_motion(const CheckContext& context, Warnings& out);     // motions.cc
 void check_damping(const CheckContext& context, Warnings& out);    // damping.cc
 void check_freedom(const CheckContext& context, Warnings& out);    // freedom.cc: bodies without supports
 void check_hourglass(const CheckContext& context, Warnings& out);  // hourglass.cc
+void check_layers(const CheckContext& context, Warnings& out);     // layers.cc: plies that share a cell
+void check_locking(const CheckContext& context, Warnings& out);    // locking.cc
 void check_turning(const CheckContext& context, Warnings& out);    // turning.cc: free rotation
 void check_event(const CheckContext& context, Warnings& out);      // events.cc
 void check_setting(const CheckContext& context, Warnings& out);    // settings.cc: keys of the integrator

@@ -114,7 +114,7 @@ void add_idle_scene(const CheckContext& context, Warnings& out) {
     return;
   warn(out, context.config.at("time").where(),
        "nothing acts on the body, and it is at rest at the start: it will not move. Add 'loads', 'gravity', 'motions' "
-       "or 'initial'");
+       "or 'initial' (`orthodyn modes` needs none of them)");
 }
 
 void check_gravity(const CheckContext& context, Warnings& out) {
