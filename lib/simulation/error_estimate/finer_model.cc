@@ -115,8 +115,25 @@ bool is_nested(const FemModel& model) {
   });
 }
 
+namespace {
+
+// Nodes of the finer mesh per node of a mesh of 20-node hexahedra: with N nodes, C cells and F faces, of which B are on
+// the surface, N' = N + 2 E + 5 F + 7 C and, by Euler's formula for a body without holes, 2 E = N - 1 + F - C.
+double finer_nodes_of_hexahedra(const Mesh& mesh) {
+  const auto N = static_cast<double>(mesh.nodes.size()), C = static_cast<double>(mesh.cells.size());
+  const double F = (6 * C + static_cast<double>(boundary_faces(mesh).size())) / 2;
+  return (2 * N + 6 * F + 6 * C - 1) / N;
+}
+
+bool has_only_20_node_hexahedra(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.cells.shapes(), [](CellShape shape) { return shape == CellShape::hex20; });
+}
+
+}  // namespace
+
 double FinerModel::estimated_unknowns(const FemModel& coarse) {
   const Mesh& mesh = coarse.parts().mesh;
+  if (has_only_20_node_hexahedra(mesh)) return finer_nodes_of_hexahedra(mesh) * coarse.num_dofs();
   return (mesh.order() == 2 || mesh.has_tets_only() ? 8.0 : 4.0) * coarse.num_dofs();
 }
 

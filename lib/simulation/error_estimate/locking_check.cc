@@ -78,6 +78,24 @@ std::string flat_cells(const FemModel& model, const State& state) {
       order == 1 ? "linear elements" : "quadratic tetrahedra", order == 1 ? " or mesh.order: 2" : "");
 }
 
+// Whether each corner of each cell lies on the surface, so that the body is one cell thick everywhere.
+bool is_one_cell_thick(const Mesh& mesh) {
+  std::vector<char> on_surface(mesh.nodes.size(), 0);
+  for (const FaceCorners& face : boundary_faces(mesh))
+    for (const int node : face) on_surface[static_cast<std::size_t>(node)] = 1;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (int a = 0; a < topology(mesh.cells.shape(c)).corners; ++a)
+      if (!on_surface[static_cast<std::size_t>(mesh.cells[c][static_cast<std::size_t>(a)])]) return false;
+  return true;
+}
+
+std::string one_layer(const Mesh& mesh) {
+  if (mesh.order() == 1 || mesh.has_tets_only() || !is_one_cell_thick(mesh)) return "";
+  return "the body is one cell thick, and stresses recovered from one layer of cells miss errors that all its cells "
+         "share: the true error may be many times the estimate. Use two cells through the thickness, or check with "
+         "orthodyn converge";
+}
+
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
   const int order = model.parts().mesh.order();
   for (const auto& term : model.parts().elastic) {
@@ -105,6 +123,7 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
 std::string locking_risk(const FemModel& model, const State& state, bool by_finer_elements) {
   std::string found = stiff_law(model, by_finer_elements);
   if (found.empty() && !by_finer_elements) found = flat_cells(model, state);
+  if (found.empty() && !by_finer_elements) found = one_layer(model.parts().mesh);
   return found;
 }
 

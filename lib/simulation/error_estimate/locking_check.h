@@ -10,9 +10,9 @@ namespace orthodyn {
 
 // A sentence about the risk, with a remedy; "" if no risk is found. If the error was estimated by recovered stresses,
 // looks for cells much wider than thick (if quadratic, only where the body bends), and for materials that are nearly
-// incompressible or far stiffer along one direction than in shear. If it was estimated by finer elements, looks only
-// for the latter materials, in which finer elements lock, too. Checks the elements of this rank
-// only.
+// incompressible or far stiffer along one direction than in shear, and for bodies of one layer of hexahedra or wedges.
+// If it was estimated by finer elements, looks only for the latter materials, in which finer elements lock, too. Checks
+// the elements of this rank only.
 std::string locking_risk(const FemModel& model, const State& state, bool by_finer_elements);
 
 }  // namespace orthodyn
