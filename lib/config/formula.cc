@@ -8,6 +8,8 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 
 #include "lib/core/spelling.h"
 #include "lib/core/units.h"
@@ -101,7 +103,25 @@ double Formula::evaluate(const double* values) const {
       where_, fmt::format("'{}' is {} at {}", text_, std::isnan(value) ? "not a number" : "infinite", join(place)));
 }
 
+namespace {
+
+// The value of "0.4 mm" in SI units; empty if the text is not a number with a known unit.
+std::optional<double> in_si(const std::string& text) {
+  const auto quantity = split_quantity(text);
+  if (!quantity) return {};
+  try {
+    return quantity->number * si_factor(quantity->unit);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {
+  if (const auto si = c.is_scalar() ? in_si(c.text()) : std::nullopt)
+    c.fail(fmt::format("{} has a unit, but this value may be a formula, which is in SI units: write {:.6g}", c.shown(),
+                       *si));
   c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.",
                      c.shown(), complaint, known));
 }

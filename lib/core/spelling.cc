@@ -29,13 +29,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// The first of the nearest names; none if more than a third of the letters (at least 2) differ.
+// The first of the nearest names. If more than a third of the letters (at least 2) differ in all, the first name that
+// begins with this one; otherwise none.
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& known) {
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const auto& other : known)
     if (const auto d = edit_distance(name, other); d < best_distance) best_distance = d, best = other;
-  return best;
+  if (best || name.size() < 3) return best;
+  const auto longer = std::find_if(known.begin(), known.end(), [&](const auto& o) { return o.starts_with(name); });
+  return longer == known.end() ? best : *longer;
 }
 
 }  // namespace

@@ -81,7 +81,9 @@ void check_middle_nodes(const Mesh& mesh, const MeshOrigin& origin) {
             origin.cell(e),
             fmt::format(
                 "{} is the mid-edge node between {} and {}, but another element uses it as a corner or on another "
-                "edge, or has another node on this edge; elements must share all nodes of a common edge: remesh",
+                "edge, or has another node on this edge. Elements must share all nodes of a common edge: remesh, or "
+                "check "
+                "that the nodes of each element are in the order of the format",
                 origin.node(middle), origin.node(ends.first), origin.node(ends.second)));
       throw ConfigError(
           origin.cell(e),

@@ -45,6 +45,20 @@ TEST(Formula, WhatItsParserSaysEndsWithAFullStop) {
   }
 }
 
+TEST(Formula, WithAUnitIsAnsweredByTheNumberInSIUnits) {
+  const Config c = Config::from_text("a: -0.4 mm\nb: 2 apples\n", "s.yaml");
+  const auto message = [&](const char* key) -> std::string {
+    try {
+      Value<PointFormula>::read(c.at(key), {});
+    } catch (const ConfigError& e) {
+      return e.message();
+    }
+    return "";
+  };
+  EXPECT_NE(message("a").find("write -0.0004"), std::string::npos) << message("a");
+  EXPECT_NE(message("b").find("cannot read the formula"), std::string::npos) << message("b");
+}
+
 TEST(Formula, RefusesAssignmentsAndSeveralValues) {
   for (const char* text : {"t=3", "t = 3", "0,5*t", "t, 2", "t += 1"})
     EXPECT_THROW(TimeFormula{text}, std::invalid_argument) << text;

@@ -25,6 +25,7 @@ TEST(DidYouMean, TakesASwapOfNeighboursForOneChange) {
 
 TEST(DidYouMean, NamesNothingThatIsFar) {
   EXPECT_EQ(did_you_mean("gravity", {"density", "young"}), "");
+  EXPECT_EQ(did_you_mean("hex", {"tetrahedra", "hexahedra", "wedges"}), "; did you mean 'hexahedra'?");
   EXPECT_EQ(did_you_mean("gravity", {"density", "young"}, "."), ".");
   EXPECT_EQ(did_you_mean("x", {}), "");
 }

@@ -119,13 +119,13 @@ TEST(Quadratic, TwoNodesOnOneEdgeAreRefused) {
   Mesh mesh = quadratic_box();
   mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(mesh.cells[0][4])] + Vec3(0, 0, 1e-3));
   mesh.cells.nodes_of(0)[4] = static_cast<int>(mesh.nodes.size()) - 1;
-  EXPECT_CONTAINS(refusal(mesh), "elements must share all nodes of a common edge");
+  EXPECT_CONTAINS(refusal(mesh), "must share all nodes of a common edge");
 }
 
 TEST(Quadratic, ACornerOnAnEdgeIsRefused) {
   Mesh mesh = quadratic_box();
   mesh.cells.nodes_of(0)[4] = mesh.cells[0][2];
-  EXPECT_CONTAINS(refusal(mesh), "elements must share all nodes of a common edge");
+  EXPECT_CONTAINS(refusal(mesh), "must share all nodes of a common edge");
 }
 
 TEST(Quadratic, AnElementThatItsEdgesFoldOverIsRefusedByName) {

@@ -33,7 +33,7 @@ constexpr const char* kBody = R"(
 mesh:                      # all kinds: orthodyn list meshes
   type: box
   size: [1, 0.05, 0.02]    # m
-  cells: [20, 2, 1]        # of quadratic tetrahedra; order: 1 makes linear ones, which are stiff in bending
+  cells: [20, 2, 1]        # quadratic elements; order: 1 makes linear ones, which are stiff in bending
 
 materials:                 # all kinds: orthodyn list materials
   wood:                    # axis 1 along the grain, 2 radial, 3 tangential
