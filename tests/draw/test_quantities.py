@@ -67,7 +67,7 @@ class Quantities(InAFolder):
                 np.testing.assert_allclose(find_quantity(text, self.frame).values(self.frame), wanted)
 
     def test_an_unknown_name_lists_what_there_is_and_the_nearest(self):
-        with self.assertRaisesRegex(DrawError, r"no field 'stres'; did you mean 'stress'\? \(present: .*displacement"):
+        with self.assertRaisesRegex(DrawError, r"no field 'stres.xx'; did you mean 'stress'\? \(present: .*displacement"):
             find_quantity("stres.xx", self.frame)
         with self.assertRaisesRegex(DrawError, "component of stress 'yx'.*xx, yy, zz, xy, yz, zx, mag.*von_mises"):
             find_quantity("stress.yx", self.frame)

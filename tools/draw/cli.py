@@ -11,8 +11,10 @@ def _picture_spec(args):
             "ghost": args.ghost, "limits": args.range}
 
 
-def _out(args, name):
-    return args.out or Path(args.result) / "pictures" / name
+def _out(args, name, suffix=".png"):
+    """The path given, or pictures/NAME in the result, with the field that colours the body if one is given."""
+    colour = getattr(args, "color", None)
+    return args.out or Path(args.result) / "pictures" / (name + (f"_{colour}" if colour else "") + suffix)
 
 
 def _frame(args):
@@ -21,7 +23,7 @@ def _frame(args):
     index = frames.asked_at(args.time) if args.time is not None else frames.checked_index(
         -1 if args.index is None else args.index)
     yield picture.draw_frame(scene.Scene(frames, [index], scene.PictureSpec(**_picture_spec(args))), index,
-                             _out(args, f"frame_{index:05d}.png"), args.size)
+                             _out(args, f"frame_{index:05d}"), args.size)
 
 
 def _strip(args):
@@ -29,7 +31,7 @@ def _strip(args):
     frames = series.Series(args.result)
     indices = [frames.asked_at(t) for t in args.times] if args.times else frames.telling(args.count)
     spec = scene.PictureSpec(**_picture_spec(args))
-    yield picture.draw_strip(scene.Scene(frames, indices, spec), indices, _out(args, "strip.png"))
+    yield picture.draw_strip(scene.Scene(frames, indices, spec), indices, _out(args, "strip"))
 
 
 def _animate(args):
@@ -37,18 +39,18 @@ def _animate(args):
     frames = series.Series(args.result)
     indices = range(0, len(frames), args.every or math.ceil(len(frames) / MOST_FRAMES))
     yield animation.draw_animation(scene.Scene(frames, indices, scene.PictureSpec(**_picture_spec(args))), indices,
-                                   _out(args, "animation.gif"), args.fps)
+                                   _out(args, "animation", ".gif"), args.fps)
 
 
 def _curve(args):
     from . import curves, series
     folder = series.result_folder(args.result)
-    yield curves.draw_curve(args.command, folder, _out(args, f"{args.command}.png"))
+    yield curves.draw_curve(args.command, folder, _out(args, args.command))
 
 
 def _load(args):
     from . import load_path, series
-    yield load_path.draw_load_path(series.result_folder(args.result), _out(args, "load.png"))
+    yield load_path.draw_load_path(series.result_folder(args.result), _out(args, "load"))
 
 
 def _compare(args):

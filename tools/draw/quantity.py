@@ -101,7 +101,7 @@ def _split(text, fields):
     for name in sorted(fields, key=len, reverse=True):
         if text == name or text.startswith(name + "."):
             return name, text[len(name) + 1:]
-    raise unknown("field", text.split(".")[0], fields)
+    raise unknown("field", text, fields)
 
 
 def find_quantity(text, frame):
@@ -110,7 +110,8 @@ def find_quantity(text, frame):
     field, part = _split(text or default_quantity(frame), fields)
     on_nodes, count = field in frame.node_fields, fields[field].shape[1]
     plain = plain_name(field)
-    title = TITLES.get(plain, plain.replace("_", " "))
+    region = field.rpartition(".")[0]
+    title = (f"{region}: " if region else "") + TITLES.get(plain, plain.replace("_", " "))
     if count == 1 and not part:
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)
