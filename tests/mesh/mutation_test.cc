@@ -71,20 +71,22 @@ void read_damaged_quadratic_elements(const std::string& stem, std::string_view e
 
 INSTANTIATE_TEST_SUITE_P(
     Formats, AnyMutation,
-    testing::Values(
-        Format{"two_boxes_22.msh", read_gmsh_text}, Format{"two_boxes_41.msh", read_gmsh_text},
-        Format{"two_tets.veg", read_vega_text}, Format{"two_boxes_gmsh.inp", read_abaqus_text},
-        Format{"two_boxes_meshio_ascii.vtu", read_vtu_text}, Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
-        Format{"two_boxes_meshio_ascii.vtk", read_vtk_text}, Format{"two_boxes_meshio_binary.vtk", read_vtk_text},
-        Format{"cube.node", read_damaged_nodes}, Format{"cube.ele", read_damaged_elements},
-        Format{"octant_22.msh", read_gmsh_text}, Format{"octant_41.msh", read_gmsh_text},
-        Format{"octant_gmsh.inp", read_abaqus_text}, Format{"octant_gmsh.vtk", read_vtk_text},
-        Format{"bricks_22.msh", read_gmsh_text}, Format{"bricks_41.msh", read_gmsh_text},
-        Format{"bricks_o2_22.msh", read_gmsh_text}, Format{"bricks_gmsh.inp", read_abaqus_text},
-        Format{"bricks_gmsh.vtk", read_vtk_text}, Format{"bricks_o2_gmsh.vtk", read_vtk_text},
-        Format{"tube_hexahedra_gmsh.inp", read_abaqus_text}, Format{"tube_wedges_41.msh", read_gmsh_text},
-        Format{"two_instances.inp", read_abaqus_text}, Format{"two_boxes_22_binary.msh", read_gmsh_text},
-        Format{"two_boxes_41_binary.msh", read_gmsh_text}, Format{"cube_o2.ele", read_damaged_quadratic_elements}),
+    testing::Values(Format{"two_boxes_22.msh", read_gmsh_text}, Format{"two_boxes_41.msh", read_gmsh_text},
+                    Format{"two_tets.veg", read_vega_text}, Format{"two_boxes_gmsh.inp", read_abaqus_text},
+                    Format{"two_boxes_meshio_ascii.vtu", read_vtu_text},
+                    Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
+                    Format{"two_boxes_meshio_ascii.vtk", read_vtk_text},
+                    Format{"two_boxes_meshio_binary.vtk", read_vtk_text}, Format{"cube.node", read_damaged_nodes},
+                    Format{"cube.ele", read_damaged_elements}, Format{"octant_22.msh", read_gmsh_text},
+                    Format{"octant_41.msh", read_gmsh_text}, Format{"octant_gmsh.inp", read_abaqus_text},
+                    Format{"octant_gmsh.vtk", read_vtk_text}, Format{"bricks_22.msh", read_gmsh_text},
+                    Format{"bricks_41.msh", read_gmsh_text}, Format{"bricks_o2_22.msh", read_gmsh_text},
+                    Format{"bricks_full_22.msh", read_gmsh_text}, Format{"bricks_gmsh.inp", read_abaqus_text},
+                    Format{"bricks_gmsh.vtk", read_vtk_text}, Format{"bricks_o2_gmsh.vtk", read_vtk_text},
+                    Format{"tube_hexahedra_gmsh.inp", read_abaqus_text}, Format{"tube_wedges_41.msh", read_gmsh_text},
+                    Format{"two_instances.inp", read_abaqus_text}, Format{"two_boxes_22_binary.msh", read_gmsh_text},
+                    Format{"two_boxes_41_binary.msh", read_gmsh_text},
+                    Format{"cube_o2.ele", read_damaged_quadratic_elements}),
     [](const auto& test) {
       std::string name = test.param.seed;
       for (char& c : name) c = c == '.' ? '_' : c;

@@ -102,6 +102,49 @@ TEST_P(Solid, PassesThePatchTestOfALinearDisplacement) {
   for (std::size_t k = 6; k < stress.size(); ++k) EXPECT_NEAR(stress[k], stress[k % 6], 1e-12);
 }
 
+// Displacement with the strain z e. The stress z C e is in equilibrium if C e has no component along z.
+Vec3 bent(const Vec3& x, const Mat3& e) { return x[2] * (e * x) - 0.5 * x.dot(e * x) * Vec3::UnitZ(); }
+
+// The strain of a uniaxial stress of 1 Pa along x, in global axes.
+Mat3 strain_of_stress_along_x(const BuiltTestScene& s) {
+  const ElasticTerm& term = *s.model().parts().elastic[0];
+  const Mat6 K = stress_rotation(term.axes_at_rest(0, 0)), C = K * term.stiffness() * K.transpose();
+  const Eigen::Matrix<double, 6, 1> e = C.inverse().col(0);
+  Mat3 strain;
+  strain << e[0], e[3] / 2, e[5] / 2, e[3] / 2, e[1], e[4] / 2, e[5] / 2, e[4] / 2, e[2];
+  return strain;
+}
+
+// A constant curvature has no force at inner nodes and the right energy, in both formulations. Elements with nodes in
+// the middle of their faces pass on distorted cells, those with nodes on edges only on parallelepipeds.
+TEST_P(Solid, PassesThePatchTestOfAConstantCurvature) {
+  if (GetParam().is_linear()) return;
+  const double shear = GetParam().nodes == Nodes::full ? 0 : 0.2;
+  const auto sheared = [&](const Vec3& x) { return Vec3(x[0] + shear * x[1], x[1], x[2] + shear * x[0]); };
+  const auto unsheared = [&](const Vec3& x) {
+    const double x0 = x[0] - shear * x[1];
+    return Vec3(x0, x[1], x[2] - shear * x0);
+  };
+  given_mesh() = shear == 0 ? distorted(GetParam()) : mesh_of(GetParam(), {3, 3, 3}, Vec3::Ones(), sheared);
+  for (const char* formulation : {"displacement", "mixed"}) {
+    if (formulation == std::string("mixed") && GetParam().cut != Cut::none) continue;
+    SCOPED_TRACE(formulation);
+    const BuiltTestScene s(fmt::format(
+        "mesh: {{type: given}}\nmaterials: {{m: {}}}\nregions: {{body: {{material: m, axes: {}, formulation: {}}}}}\n"
+        "elasticity: {{kinematics: linear}}\ntime: {{end: 1}}\n",
+        kWood, kTurnedAxes, formulation));
+    const Mat3 strain = strain_of_stress_along_x(s);
+    const Vector q = s.dofs([&](const Vec3& x) { return bent(x, strain); });
+    const NodalVector f = s.nodal(s.force(q));
+    for (Eigen::Index n = 0; n < f.cols(); ++n)
+      if (is_inner(unsheared(s.model().parts().rest->col(n)))) {
+        EXPECT_LE(f.col(n).norm(), 1e-13);
+      }
+    const double square_of_z = 1.0 / 3 + shear / 2 + shear * shear / 3;  // mean over the body
+    EXPECT_NEAR(s.potential(q), 0.5 * strain(0, 0) * square_of_z, 1e-13);
+  }
+}
+
 // The mesh has no gaps: its cells together have the volume of the box, 1 m^3.
 TEST_P(Solid, FillsTheBoxAndHasItsMass) {
   const Mesh mesh = distorted(GetParam());

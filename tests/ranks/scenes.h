@@ -62,6 +62,33 @@ regions: {body: {layup: [[wood, 0, 0.5 cm], [wood, 60 deg, 3 cm], [wood, 0, 0.5 
 clamps: [{surface: x0}]
 loads: [{surface: x1, force: [0, 0, -1]}]
 )"},
+          {"bricks",
+           "mesh: {type: box, size: [1, 0.2, 0.1], cells: [6, 2, 2], elements: hexahedra, order: 1}\n" + head + R"(
+initial: {velocity: [0, 0, -1]}
+terms: [{type: ground_contact, point: [0, 0, -0.005], stiffness: 1.0e7}]
+)"},
+          {"wedges", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 2, 1], elements: wedges_18}\n" + head + R"(
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+terms: [{type: pressure, surface: z1, pressure: "1000 + 1000 * x"}]
+)"},
+          // Hexahedra of 27 nodes beside wedges of 18.
+          {"kinds",
+           "mesh: {type: gmsh, file: " ORTHODYN_SOURCE_DIR "/tests/mesh/data/bricks_full_22.msh, scale: 0.1}\n" + head +
+               R"(
+regions: {left: {material: wood}, right: {material: wood}}
+clamps: [{surface: clamped}]
+gravity: [0, 0, -9.81]
+)"},
+          // Elements that project their volume strain.
+          {"rubber", R"(
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 2, 1], elements: hexahedra_27}
+time: {end: 0.2}
+materials: {rubber: {type: isotropic, density: 1000, young: 5.0e4, nu: 0.48}}
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+damping: {stiffness: 1.0e-3}
+)"},
           // Five elements, so that some of seven ranks have none.
           {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
 clamps: [{surface: x0}]
