@@ -77,6 +77,14 @@ Vector product(const Pattern& pattern, const std::vector<double>& values, const 
   return y;
 }
 
+// The number of modes for the next search for those below `limit`, after `count` modes up to `reached`. Plates have
+// modes in proportion to the frequency, bars fewer, solids more.
+int more_modes(int count, double reached, double limit) {
+  constexpr double kMargin = 1.15, kFewest = 1.25, kMost = 4;
+  const double growth = kMargin * std::sqrt(limit / std::max(reached, limit / 100));
+  return static_cast<int>(std::ceil(count * std::clamp(growth, kFewest, kMost)));
+}
+
 }  // namespace
 
 ModalBasis::ModalBasis(const Model& model, const ModeLimit& limit) : model_(model) {
@@ -124,7 +132,7 @@ void ModalBasis::find_lowest(int count) {
 
 void ModalBasis::find_below(double frequency) {
   const double limit = std::pow(2 * std::numbers::pi * frequency, 2);
-  for (int count = kFirstCount;; count *= 2) {
+  for (int count = kFirstCount;; count = more_modes(count, next_lambda_, limit)) {
     find_lowest(count);
     if (complete_ || next_lambda_ >= limit) break;
     if (count >= kMaxModesBelow)

@@ -52,6 +52,14 @@ std::unique_ptr<LinearSolver> factor_or_iterations(const Pattern& pattern) {
   }
 }
 
+bool is_diagonal(const Pattern& pattern, const std::vector<double>& M) {
+  for (int column = 0; column < pattern.n; ++column)
+    for (int k = pattern.column_start[static_cast<std::size_t>(column)];
+         k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k)
+      if (pattern.row[static_cast<std::size_t>(k)] != column && M[static_cast<std::size_t>(k)] != 0) return false;
+  return true;
+}
+
 // The eigenvalue problem scaled such that absolute thresholds of libraries become relative ones. Unit of mass: the mean
 // diagonal entry of M; unit of eigenvalues: the largest quotient K_ii / M_ii, a lower estimate of the largest
 // eigenvalue. Both are rounded to powers of two, so that scaling causes no rounding errors.
@@ -65,6 +73,7 @@ class Problem {
         shifted_(K.size()),
         solver_(solver == ShiftedSolver::iterative ? make_iterative(pattern) : factor_or_iterations(pattern)) {
     const Vector k = diagonal(pattern, K).cwiseAbs(), m = diagonal(pattern, M);
+    if (is_diagonal(pattern, M)) lumped_mass_ = m;
     mass_unit_ = nearest_power_of_two(m.mean());
     unit_ = nearest_power_of_two(k.cwiseQuotient(m).maxCoeff());
     if (!solver_->is_iterative()) return;
@@ -79,7 +88,8 @@ class Problem {
 
   // The following functions use the scaled units.
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const {
-    pattern_.multiply(M_.data(), x, y);
+    if (lumped_mass_.size() > 0) y = lumped_mass_.cwiseProduct(x);
+    else pattern_.multiply(M_.data(), x, y);
     y /= mass_unit_;
   }
   void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const {
@@ -107,6 +117,7 @@ class Problem {
  private:
   const Pattern& pattern_;
   const std::vector<double>&K_, &M_;
+  Vector lumped_mass_;  // the diagonal of M; empty if M has other entries
   double mass_unit_ = 1, unit_ = 1;
   Eigen::MatrixXd rigid_motions_;
   std::vector<double> shifted_;
