@@ -46,7 +46,7 @@ class SweepCommand : public InFolder {
 };
 
 inline const char* const kMany = R"(scene: scene.yaml
-vary: {materials.soft.young: {from: 1e5, to: 1e7, count: 24, scale: log, name: E}}
+vary: {materials.soft.young: {from: 1e5, to: 1e7, count: 12, scale: log, name: E}}
 quantities:
   far: {quantity: node.displacement.x, take: max}
   hertz: {mode: 1}

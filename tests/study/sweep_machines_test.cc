@@ -29,7 +29,7 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
           "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
     ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
     const auto now = results();
-    kills += now.size() > finished.size() && now.size() < 24;
+    kills += now.size() > finished.size() && now.size() < 12;
     for (const auto& [file, text] : finished) EXPECT_EQ(now.at(file), text);
     for (const auto& [file, text] : now) EXPECT_FALSE(Json::parse(text, nullptr, false).is_discarded()) << file;
     std::size_t begun = 0;
@@ -53,8 +53,8 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_EQ(sweep("--task 3/3 --jobs 1").exit_code, 0);
   const auto part = sweep("--collect");
   EXPECT_EQ(part.exit_code, 3);
-  EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
-  EXPECT_EQ(table().at("missing"), 8);
+  EXPECT_NE(part.output.find("4 of 12 points are missing"), std::string::npos) << part.output;
+  EXPECT_EQ(table().at("missing"), 4);
   // Two processes at a time in one folder, as on a cluster.
   shell("cd " + folder_.string() + " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
@@ -64,21 +64,21 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
 
 TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
   write("s.yaml", kMany);
-  EXPECT_EQ(sweep("--task 1/8 --jobs 1").exit_code, 0);
+  EXPECT_EQ(sweep("--task 1/4 --jobs 1").exit_code, 0);
   const auto lines_in = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
   const auto missing = [&] {
     const std::string said = sweep("--collect").output;
     const auto head = said.find("points are missing:\n"), tail = said.find("run the command without");
     return head == std::string::npos ? 0 : lines_in(said.substr(head, tail - head)) - 1;
   };
-  EXPECT_EQ(sweep("--task 2/8 --jobs 1").exit_code, 0);
-  EXPECT_EQ(missing(), 18);
-  EXPECT_EQ(table().at("missing"), 18);
+  EXPECT_EQ(sweep("--task 2/4 --jobs 1").exit_code, 0);
+  EXPECT_EQ(missing(), 6);
+  EXPECT_EQ(table().at("missing"), 6);
   // A process that died leaves a reason: the point is in the table and not missing.
   const std::string some = results().begin()->first;
   study::write_result(fs::path(some).parent_path(), study::to_json(study::Failure{"crashed", "ended by signal 9"}));
-  EXPECT_EQ(missing(), 18);
-  EXPECT_EQ(table().at("missing"), 18);
+  EXPECT_EQ(missing(), 6);
+  EXPECT_EQ(table().at("missing"), 6);
   EXPECT_EQ(sweep("--quiet").exit_code, 0);
   EXPECT_EQ(missing(), 0);
   EXPECT_EQ(read_text(some).find("crashed"), std::string::npos);

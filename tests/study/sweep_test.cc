@@ -345,8 +345,8 @@ TEST_F(SweepCommand, LeavesNoOldReportBesideNewResults) {
 TEST_F(SweepCommand, HasNoMoreTasksThanPoints) {
   write("s.yaml", kMany);
   const auto done = sweep("--slurm --tasks 100");
-  EXPECT_NE(done.output.find("24 points need only 24 tasks, not 100\n"), std::string::npos) << done.output;
-  EXPECT_NE(done.output.find("#SBATCH --array=1-24\n"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("12 points need only 12 tasks, not 100\n"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("#SBATCH --array=1-12\n"), std::string::npos) << done.output;
 }
 
 TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
