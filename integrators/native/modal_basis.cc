@@ -132,7 +132,7 @@ void ModalBasis::find_lowest(int count) {
 
 void ModalBasis::find_below(double frequency) {
   const double limit = std::pow(2 * std::numbers::pi * frequency, 2);
-  for (int count = kFirstCount;; count = more_modes(count, next_lambda_, limit)) {
+  for (int count = kFirstCount;; count = std::min(more_modes(count, next_lambda_, limit), kMaxModesBelow)) {
     find_lowest(count);
     if (complete_ || next_lambda_ >= limit) break;
     if (count >= kMaxModesBelow)

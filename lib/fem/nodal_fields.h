@@ -83,8 +83,8 @@ std::vector<double> tensor_at_node(RecoveredTensors& recovered, const TensorFiel
 std::vector<double> derived_at_node(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
                                     const DerivedField& derived, const FieldParts& parts, int node);
 
-// A name that may stand before a field, as in NAME.FIELD: a region, a ply, or the part of either that one elastic term
-// computes.
+// A name that may stand before a field, as in NAME.FIELD: a region without plies, a ply, or the part of either that one
+// elastic term computes.
 struct FieldRegion {
   std::string name;
   FieldParts parts;

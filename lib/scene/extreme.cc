@@ -167,7 +167,10 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
   const std::string which = name.substr(dot + 1);
   if (which != "largest" && which != "smallest") return std::nullopt;
   const auto field = read_field(name.substr(0, dot), model);
-  if (!field) return refuse_unknown_region(name, model, origin), std::nullopt;
+  if (!field) {
+    refuse_unknown_region(name, model, origin);
+    return std::nullopt;
+  }
   require_strengths(field->field, field->region, model, origin);
   const double sign = which == "largest" ? 1 : -1;
   return [fields = fields_of_terms(*field, model), field = *field, sign](const ObservedState& observed) {

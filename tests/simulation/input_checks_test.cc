@@ -67,7 +67,6 @@ TEST(InputChecks, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
   EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nclamps: [{surface: x0}]"), testing::Not(reported));
 }
 
-// With linear kinematics a rotated body grows by 1/cos of the angle.
 TEST(InputChecks, ANearlyIncompressibleMaterialIsNotForLinearTetrahedra) {
   const auto block = [](const std::string& mesh) {
     return findings_of("mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], " + mesh +
@@ -80,6 +79,7 @@ TEST(InputChecks, ANearlyIncompressibleMaterialIsNotForLinearTetrahedra) {
     EXPECT_THAT(block(other), Not(HasSubstr("locking"))) << other;
 }
 
+// With linear kinematics a rotated body grows by 1/cos of the angle.
 TEST(InputChecks, AFreeBodyThatTurnsIsNotForLinearKinematics) {
   const auto spun = [](double spin, const std::string& kinematics) {
     return findings_of(fmt::format("mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2]}}\n"

@@ -84,8 +84,8 @@ class ElasticTerm : public Term {
   // element. Much faster than observe_point().
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const = 0;
 
-  // C : e for these strains e, Pa: the stress in material axes that turn with the material. In the mixed formulation
-  // with the projected volume strain. Columns as in strains().
+  // The stress in material axes that turn with the material, Pa: C : e for these strains e. In the mixed formulation
+  // C' : e plus the volumetric stress (mixed_elastic_term.h). Columns as in strains().
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> stresses(const NodalState& s) const = 0;
 
   // Largest norm of Green's strain (F^T F - I)/2 over all points. Much faster than strains().
