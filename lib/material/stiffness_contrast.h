@@ -18,8 +18,8 @@ StiffnessContrast stiffness_contrast(const Mat6& stiffness);
 // the mixed formulation at least halves the contrast.
 bool is_nearly_incompressible(const Stiffness& stiffness);
 
-// The bulk modulus less a third of the smallest eigenvalue of C, Pa. Without it, C - k I (x) I is still positive definite.
-// Isotropic: k is Lame's constant lambda, and the rest is 2 mu e, the stiffness for nu = 0.
+// The bulk modulus less a third of the smallest eigenvalue of C, Pa. Without it, C - k I (x) I is still positive
+// definite. Isotropic: k is Lame's constant lambda, and the rest is 2 mu e, the stiffness for nu = 0.
 double volumetric_modulus(const Stiffness& stiffness);
 
 // The part of the bulk modulus (Pa) that exceeds twice the smallest eigenvalue of C: of an isotropic material, the part

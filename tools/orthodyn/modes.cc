@@ -1,12 +1,14 @@
 // `orthodyn modes`: undamped natural frequencies and mode shapes about rest or a static equilibrium.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
 #include "lib/core/number_format.h"
 #include "lib/simulation/modes/modal_analysis.h"
 #include "lib/simulation/modes/mode_files.h"
+#include "lib/simulation/sensitivity/frequency_sensitivity.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -19,7 +21,7 @@ namespace {
 
 struct ModesArguments {
   std::string scene;
-  std::vector<std::string> set;
+  std::vector<std::string> set, sensitivities;
   std::optional<std::string> out;
   int count = 20;
   bool equilibrium = false, picture = false, quiet = false, force = false;
@@ -72,17 +74,41 @@ void print_mesh_errors(const ModalAnalysis& analysis) {
     if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+// Slope of each frequency: its change in % per usual change of the parameter.
+void print_sensitivities(const Modes& modes, const std::vector<FrequencySensitivity>& all) {
+  if (all.empty()) return;
+  fmt::print("sensitivities: slope of the frequency, in % per change of the parameter\n  mode");
+  for (const FrequencySensitivity& one : all)
+    fmt::print("  {}", fmt::format("{} + {}", one.parameter.path(), one.parameter.change_text()));
+  fmt::print("\n");
+  for (auto k = static_cast<std::size_t>(modes.zeros); k < modes.modes.size(); ++k) {
+    fmt::print("  {:4}", k + 1);
+    for (const FrequencySensitivity& one : all) {
+      const std::size_t width = one.parameter.path().size() + 3 + std::string(one.parameter.change_text()).size();
+      const double change = 100 * one.derivatives[k] * one.parameter.usual_change() / modes.modes[k].frequency();
+      fmt::print("  {:>{}}", std::isfinite(change) ? fmt::format("{:+.4f}", change) : "-", width);
+    }
+    fmt::print("\n");
+  }
+}
+
 int compute_modes(const ModesArguments& arguments) {
   const fs::path folder =
       arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
   check_modes_folder(folder, arguments.force);
+  if (arguments.equilibrium && !arguments.sensitivities.empty())
+    throw ConfigError("--sensitivity", "is available for modes about rest only; leave out --equilibrium");
   const Setup setup = set_up_without_time(arguments.scene, {.set = arguments.set}, false).setup;
+  const auto parameters = scene_parameters(setup.config, arguments.sensitivities);
   const ModalAnalysis analysis(setup, arguments.count, arguments.equilibrium);
   write_modes(folder, analysis);
+  const auto sensitivities = frequency_sensitivities(setup.config, analysis, parameters);
+  write_sensitivities(folder, analysis, sensitivities);
   if (arguments.quiet) return 0;
   const Modes& modes = analysis.modes();
   print_table(analysis, arguments.equilibrium);
   print_mesh_errors(analysis);
+  print_sensitivities(modes, sensitivities);
   if (analysis.takes_symmetric_part())
     fmt::print(stderr,
                "warning: a load that follows the body makes the stiffness unsymmetric; modes use its symmetric part "
@@ -103,6 +129,11 @@ void declare(ModesArguments& arguments, CommandOptions& options) {
       .show_default();
   options.flag("--equilibrium", arguments.equilibrium,
                "Compute modes about the static equilibrium under the scene's loads instead of about rest.");
+  options
+      .repeated("--sensitivity", arguments.sensitivities,
+                "Also compute the derivative of each frequency with respect to this number of the scene, such as "
+                "materials.spruce.young.0.")
+      .type("PATH");
   options.value("--out", arguments.out, "Folder for the results; default out/modes/<scene>.").type("DIR");
   options.flag("--force", arguments.force, "Replace earlier results in the folder.");
   options.flag("--picture", arguments.picture, "Also draw the shapes in modes.png, which takes some seconds.");
@@ -112,7 +143,8 @@ void declare(ModesArguments& arguments, CommandOptions& options) {
 
 const CommandRegistration modes_command(
     {.order = 30, .name = "modes", .sentence = "Compute undamped natural frequencies and mode shapes.", .examples = R"(
-  orthodyn modes configs/scenes/tuning_fork.yaml -n 8)"},
+  orthodyn modes configs/scenes/tuning_fork.yaml -n 8
+  orthodyn modes part.yaml --sensitivity materials.wood.young.0 --sensitivity materials.wood.density)"},
     declare, compute_modes);
 
 }  // namespace

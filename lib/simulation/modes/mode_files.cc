@@ -16,7 +16,7 @@ namespace {
 
 void remove_earlier(const fs::path& folder) {
   std::error_code ec;
-  for (const char* name : {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv"})
+  for (const char* name : {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv", "sensitivities.csv"})
     if (!ec) fs::remove_all(folder / name, ec);
   if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", folder.string(), ec.message()));
 }

@@ -1,0 +1,181 @@
+#include "lib/simulation/sensitivity/frequency_sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lib/core/errors.h"
+#include "lib/mesh/selection.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/statics/static_problem.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kFirstStep = 0.3, kLastStep = 1e-4;  // shares of SceneParameter::usual_change()
+
+// Modes first, ..., first + count - 1 have one frequency to round-off.
+struct Cluster {
+  std::size_t first, count;
+};
+
+// Groups the vibrating modes: those of positive frequency.
+std::vector<Cluster> clusters_of(const Modes& modes) {
+  constexpr double kEqual = 1e-7;  // relative difference of omega^2, above the accuracy of the eigenvalues
+  std::vector<Cluster> clusters;
+  for (auto k = static_cast<std::size_t>(modes.zeros); k < modes.modes.size(); ++k) {
+    const double lambda = modes.modes[k].lambda;
+    if (!(lambda > 0)) continue;
+    const bool continues = !clusters.empty() && clusters.back().first + clusters.back().count == k &&
+                           lambda - modes.modes[k - 1].lambda < kEqual * lambda;
+    if (continues) ++clusters.back().count;
+    else clusters.push_back({k, 1});
+  }
+  return clusters;
+}
+
+// Whether the scene can be read with the parameter at two steps h to both sides.
+bool allows(const Config& scene, const SceneParameter& parameter, double h) {
+  try {
+    for (const int steps : {-2, 2}) read_scene(parameter.changed(scene, steps * h));
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+// Step of the differences, in SI units of the parameter.
+double step_of(const Config& scene, const SceneParameter& parameter) {
+  double h = kFirstStep * parameter.usual_change();
+  while (!allows(scene, parameter, h)) {
+    h /= 2;
+    if (h < kLastStep * parameter.usual_change()) read_scene(parameter.changed(scene, 2 * h));  // throws
+    if (h < kLastStep * parameter.usual_change() / 2) read_scene(parameter.changed(scene, -2 * h));
+  }
+  return h;
+}
+
+// Quadratic forms of stiffness and mass of the scene at rest.
+class Forms {
+ public:
+  Forms(const Config& scene, const FemModel& original, double t, const SceneParameter& parameter) {
+    const Scene changed = read_scene(scene);
+    built_ = build(changed.is_static() ? changed : at_rest(changed));
+    if (model().num_dofs() != original.num_dofs() || model().pattern().row != original.pattern().row)
+      throw ConfigError(parameter.path(), "changes the connections of the mesh; choose another parameter");
+    rest_ = {t, Vector::Zero(model().num_dofs()), Vector::Zero(model().num_dofs()), 0};
+    at_rest_ = energy(rest_.q);
+    small_ = kSmall * bounding_box(model().parts().mesh).size().minCoeff();
+  }
+
+  // x . K x.
+  double stiffness(const Vector& x) const {
+    const double scale = small_ / std::max(x.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+    const Vector q = scale * x;
+    return (energy(q) + energy(-q) - 2 * at_rest_) / (scale * scale);
+  }
+  // x . M x.
+  double mass(const Vector& x) const {
+    Vector product(x.size());
+    model().multiply_mass(x, product);
+    return x.dot(product);
+  }
+
+ private:
+  // Displacements over the smallest side of the body: the error due to large rotations is this squared.
+  static constexpr double kSmall = 1e-7;
+
+  const FemModel& model() const { return *built_.model; }
+  double energy(const Vector& q) const { return model().evaluate("energy.elastic", {rest_.t, q, rest_.v, 0})[0]; }
+
+  BuiltScene built_;
+  State rest_;
+  double at_rest_ = 0, small_ = 0;
+};
+
+// phi_i . (K - omega^2 M) phi_j of a cluster.
+Eigen::MatrixXd form_of(const Forms& forms, const Modes& modes, const Cluster& cluster) {
+  const auto n = static_cast<Eigen::Index>(cluster.count);
+  const double lambda = modes.modes[cluster.first].lambda;
+  const auto shape = [&](Eigen::Index i) -> const Vector& {
+    return modes.modes[cluster.first + static_cast<std::size_t>(i)].shape;
+  };
+  const auto of = [&](const Vector& x) { return forms.stiffness(x) - lambda * forms.mass(x); };
+  Eigen::MatrixXd form(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) form(i, i) = of(shape(i));
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      form(i, j) = form(j, i) = (of(shape(i) + shape(j)) - of(shape(i) - shape(j))) / 4;
+  return form;
+}
+
+FrequencySensitivity sensitivity(const Config& scene, const FemModel& model, double t, const Modes& modes,
+                                 std::size_t count, const SceneParameter& parameter) {
+  const double h = step_of(scene, parameter);
+  const auto at = [&](int steps) { return Forms(parameter.changed(scene, steps * h), model, t, parameter); };
+  const Forms before_2 = at(-2), before = at(-1), after = at(1), after_2 = at(2);
+  FrequencySensitivity out{parameter, std::vector<double>(count, std::numeric_limits<double>::quiet_NaN())};
+  for (const Cluster& cluster : clusters_of(modes)) {
+    const auto of = [&](const Forms& forms) { return form_of(forms, modes, cluster); };
+    const Eigen::MatrixXd slope = (8 * (of(after) - of(before)) - (of(after_2) - of(before_2))) / (12 * h);
+    const Eigen::VectorXd slopes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(slope).eigenvalues();
+    for (std::size_t i = 0; i < cluster.count && cluster.first + i < count; ++i) {
+      const Mode& mode = modes.modes[cluster.first + i];
+      out.derivatives[cluster.first + i] =
+          slopes[static_cast<Eigen::Index>(i)] / (2 * mode.angular_frequency() * 2 * std::numbers::pi);
+    }
+  }
+  return out;
+}
+
+// The modes of the analysis. If the last of them may be one of several with its frequency, with more modes.
+Modes with_whole_clusters(const ModalAnalysis& analysis) {
+  constexpr int kMore = 4;
+  const auto count = static_cast<int>(analysis.modes().modes.size());
+  const int more = std::min(count + kMore, analysis.model().num_dofs());
+  return more > count ? natural_modes(analysis.model(), analysis.about(), more) : analysis.modes();
+}
+
+}  // namespace
+
+std::vector<SceneParameter> scene_parameters(const Config& scene, const std::vector<std::string>& paths) {
+  std::vector<SceneParameter> parameters;
+  for (const std::string& path : paths) {
+    parameters.emplace_back(scene, path);
+    step_of(scene, parameters.back());
+  }
+  return parameters;
+}
+
+std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const ModalAnalysis& analysis,
+                                                          const std::vector<SceneParameter>& parameters) {
+  std::vector<FrequencySensitivity> out;
+  if (parameters.empty()) return out;
+  const Modes modes = with_whole_clusters(analysis);
+  for (const SceneParameter& parameter : parameters)
+    out.push_back(
+        sensitivity(scene, analysis.model(), analysis.about().t, modes, analysis.modes().modes.size(), parameter));
+  return out;
+}
+
+void write_sensitivities(const std::filesystem::path& folder, const ModalAnalysis& analysis,
+                         const std::vector<FrequencySensitivity>& sensitivities) {
+  if (sensitivities.empty()) return;
+  std::vector<std::string> header{"mode", "frequency [Hz]"};
+  for (const FrequencySensitivity& one : sensitivities)
+    header.push_back(fmt::format("d frequency / d {} [Hz / SI unit]", one.parameter.path()));
+  CsvFile file(folder / "sensitivities.csv", header);
+  file.begin();
+  for (std::size_t k = 0; k < analysis.modes().modes.size(); ++k) {
+    std::vector<double> row{static_cast<double>(k + 1), analysis.modes().modes[k].frequency()};
+    for (const FrequencySensitivity& one : sensitivities) row.push_back(one.derivatives[k]);
+    file.row(row);
+  }
+}
+
+}  // namespace orthodyn

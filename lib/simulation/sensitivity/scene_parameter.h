@@ -1,0 +1,32 @@
+// A number of a scene as a parameter, by its path in the file: "materials.spruce.young.0", "regions.body.axes.angle".
+#pragma once
+
+#include <string>
+
+#include "lib/config/config.h"
+
+namespace orthodyn {
+
+class SceneParameter {
+ public:
+  // Throws ConfigError if the scene has no such key, if it is not a number, or if it is 0 and not an angle, so that
+  // there is no scale for a change.
+  SceneParameter(const Config& scene, const std::string& path);
+
+  const std::string& path() const { return path_; }
+  double value() const { return number_ * factor_; }  // in SI units
+
+  // A usual change in SI units, and its text: 1 % of the value, or 1 degree of an angle.
+  double usual_change() const;
+  const char* change_text() const { return is_angle_ ? "1 deg" : "1 %"; }
+
+  // The scene with this parameter larger by `change` (SI units). The scene is not changed.
+  Config changed(const Config& scene, double change) const;
+
+ private:
+  std::string path_, unit_;
+  double number_ = 0, factor_ = 1;  // as written, and the unit in SI units
+  bool is_angle_ = false;
+};
+
+}  // namespace orthodyn
