@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "lib/config/formula.h"
+#include "lib/element/quad4.h"
 #include "lib/element/quad8.h"
 #include "lib/element/quad9.h"
 #include "lib/element/tri3.h"
