@@ -33,7 +33,35 @@ struct Ordering {
   bool nested_dissection;
 };
 
-// By CHOLMOD's simplicial analysis (minimum degree, or METIS), postordered.
+// The points of a pattern as a graph: the lower triangle of its matrix with one entry for each block of unknowns.
+struct PointGraph {
+  std::vector<int> first;              // first unknown of each point, and the number of unknowns
+  std::vector<int> column_start, row;  // compressed columns
+  int size() const { return static_cast<int>(first.size()) - 1; }
+};
+
+// Precondition: the unknowns are coordinates of points.
+PointGraph graph_of_points(const Pattern& pattern) {
+  PointGraph graph;
+  std::vector<int> point_of(at(pattern.n));
+  for (int i = 0; i < pattern.n; ++i) {
+    if (i == 0 || pattern.coordinate[at(i)] / 3 != pattern.coordinate[at(i) - 1] / 3) graph.first.push_back(i);
+    point_of[at(i)] = static_cast<int>(graph.first.size()) - 1;
+  }
+  graph.first.push_back(pattern.n);
+  graph.column_start.push_back(0);
+  for (int p = 0; p < graph.size(); ++p) {
+    const int column = graph.first[at(p)];  // has entries in all rows of the point's unknowns
+    int last = -1;
+    for (int e = pattern.column_start[at(column)]; e < pattern.column_start[at(column) + 1]; ++e)
+      if (const int q = point_of[at(pattern.row[at(e)])]; q != std::exchange(last, q)) graph.row.push_back(q);
+    graph.column_start.push_back(static_cast<int>(graph.row.size()));
+  }
+  return graph;
+}
+
+// By CHOLMOD's simplicial analysis, postordered: minimum degree, or nested dissection (METIS) for large systems and
+// where it saves many operations.
 class Orderer {
  public:
   Orderer() {
@@ -51,23 +79,62 @@ class Orderer {
   Orderer& operator=(const Orderer&) = delete;
 
   Ordering order(const Pattern& pattern) {
-    const bool dissect = pattern.n >= kNestedDissectionFrom;
-    if (!(dissect && analyze(pattern, CHOLMOD_METIS))) analyze(pattern, CHOLMOD_AMD);  // METIS may be missing
+    bool dissected = pattern.n >= kNestedDissectionFrom && analyze(pattern, CHOLMOD_METIS);  // METIS may be missing
+    if (!dissected && analyze(pattern, CHOLMOD_AMD)) dissected = dissect_if_cheaper(pattern);
     if (common_.status == CHOLMOD_OUT_OF_MEMORY)
       throw RunError("the analysis of the matrix does not fit in memory; use a coarser mesh", Reason::out_of_memory);
     if (!factor_) throw RunError(fmt::format("CHOLMOD could not analyse the matrix (status {})", common_.status));
     const auto copy = [&](const void* numbers) {
       return std::vector<int>(static_cast<const int*>(numbers), static_cast<const int*>(numbers) + pattern.n);
     };
-    return {copy(factor_->Perm), copy(factor_->ColCount), factor_->ordering == CHOLMOD_METIS};
+    return {copy(factor_->Perm), copy(factor_->ColCount), dissected};
   }
 
  private:
+  // Operations of a factorisation from which another ordering is tried, and the share of them below which it is taken.
+  static constexpr double kMany = 1e9, kFewer = 0.75;
+
   bool analyze(const Pattern& pattern, int method) {
     common_.method[0].ordering = method;
     cholmod_sparse view = cholmod_view(pattern, nullptr);
     factor_ = cholmod_analyze(&view, &common_);
     return factor_ != nullptr;
+  }
+
+  // Replaces the analysis by one with nested dissection of the points, whose graph is a ninth of the matrix. Returns
+  // false and changes nothing if this saves little.
+  bool dissect_if_cheaper(const Pattern& pattern) {
+    const double operations = common_.fl;
+    if (pattern.coordinate.empty() || operations < kMany) return false;
+    std::vector<int> order = dissection_of_points(pattern);
+    if (order.empty()) return false;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    cholmod_sparse view = cholmod_view(pattern, nullptr);
+    cholmod_factor* found = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common_);
+    if (found && common_.fl < kFewer * operations) std::swap(found, factor_);
+    else order.clear();
+    cholmod_free_factor(&found, &common_);
+    return !order.empty();
+  }
+
+  // The unknowns in the order of a nested dissection of their points; empty without METIS.
+  std::vector<int> dissection_of_points(const Pattern& pattern) {
+    PointGraph graph = graph_of_points(pattern);
+    common_.method[0].ordering = CHOLMOD_METIS;
+    cholmod_sparse view = cholmod_view(pattern, nullptr);
+    view.nrow = view.ncol = at(graph.size());
+    view.nzmax = graph.row.size();
+    view.p = graph.column_start.data();
+    view.i = graph.row.data();
+    cholmod_factor* found = cholmod_analyze(&view, &common_);
+    std::vector<int> order;
+    if (found) {
+      const int* const points = static_cast<const int*>(found->Perm);
+      for (int k = 0; k < graph.size(); ++k)
+        for (int i = graph.first[at(points[k])]; i < graph.first[at(points[k]) + 1]; ++i) order.push_back(i);
+    }
+    cholmod_free_factor(&found, &common_);
+    return order;
   }
 
   cholmod_common common_{};
