@@ -142,16 +142,18 @@ void require_strengths(const std::string& field, const std::string& region, cons
 }
 
 void require_field_at(const std::string& field, int node, const FemModel& model, const SourceLocation& origin) {
-  const ElementMesh mesh(model.parts().mesh);
   const std::string named = region_of(field, model);
+  if (named.empty() && !needs_strength(field)) return;
+  const ElementMesh mesh(model.parts().mesh);
   const std::vector<const ElasticTerm*> terms = terms_at(node, named, mesh, model);
-  if (terms.empty())
+  if (!named.empty() && terms.empty())
     origin.fail(fmt::format(
         "'{}': the probe's node is not in region {}; move the probe, or use the field without a region", field, named));
   if (!needs_strength(field)) return;
   for (const ElasticTerm* term : terms)
     if (term->definition().strength) return;
-  fail_without_strength(field, "the material of region " + terms.back()->region(), origin);
+  fail_without_strength(field, terms.empty() ? "a material" : "the material of region " + terms.back()->region(),
+                        origin);
 }
 
 std::string unit_of_extreme(const std::string& name) {

@@ -154,8 +154,8 @@ TEST_P(Mixed, HasNoForceInRigidMotionsAndNoOtherMotionWithoutForce) {
   EXPECT_GT(values[6], 1e-4);
 }
 
-// A linear displacement has the same stress everywhere, in distorted elements, too: for small strain that of the
-// displacement formulation.
+// A linear displacement has a uniform stress, also in distorted elements. For small strain this stress equals that of
+// the displacement formulation.
 TEST_P(Mixed, PassesThePatchTest) {
   Random random(707);
   const Mat3 A = 0.01 * random.matrix();

@@ -344,7 +344,7 @@ TEST(Plies, HaveExtremesOfAllTheirParts) {
   EXPECT_GT(largest("body"), of_soft);
 }
 
-// The name of a ply is valid on each mesh, whatever the number of its parts.
+// Fields can be asked for by the name of a ply, also if the mesh divides the ply into several parts.
 TEST(Plies, HaveFieldsByTheirNameOnEachMesh) {
   const auto bent = [](const Vec3& x) { return Vec3(x[0] * (x[2] - 0.1), 0, -x[0] * x[0] / 2); };
   for (const char* cells : {"[2, 2, 1]", "[2, 2, 2]", "[2, 2, 4]"}) {

@@ -154,7 +154,7 @@ TEST(NearlyIncompressible, HasTheStrainOfAnisotropicBodiesUnderPressure) {
   EXPECT_LT((linear_static(s) - expected).norm(), 1e-9 * expected.norm());
 }
 
-// A uniform stretch has the energy mu |S - I|^2 + lambda/2 (J - 1)^2, whatever the element.
+// In all elements a uniform stretch has the energy density mu |S - I|^2 + lambda/2 (J - 1)^2.
 class Stretched : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Kind, Stretched, testing::ValuesIn(kKinds), [](const auto& one) { return one.param.name; });
 

@@ -93,7 +93,7 @@ time: {end: 1}
   EXPECT_NEAR(by_height[1], in_height, 0.02 * in_height);
 }
 
-// The third frequency is also that of the fourth mode, which is not asked for.
+// Modes 3 and 4 have equal frequencies. Mode 3 has the same derivative whether or not mode 4 is requested.
 TEST(FrequencySensitivity, DoesNotDependOnTheNumberOfModes) {
   const std::string bar = R"(
 mesh: {type: box, size: [1, 0.05, 0.05], cells: [8, 2, 2], elements: hexahedra}

@@ -19,12 +19,12 @@ namespace {
 
 constexpr double kFirstStep = 0.3, kLastStep = 1e-4;  // shares of SceneParameter::usual_change()
 
-// Modes first, ..., first + count - 1 have one frequency to round-off.
+// The modes first, ..., first + count - 1, whose frequencies are equal to round-off.
 struct Cluster {
   std::size_t first, count;
 };
 
-// Groups the vibrating modes: those of positive frequency.
+// Groups the modes of positive frequency. Modes of equal frequency form one group.
 std::vector<Cluster> clusters_of(const Modes& modes) {
   constexpr double kEqual = 1e-7;  // relative difference of omega^2, above the accuracy of the eigenvalues
   std::vector<Cluster> clusters;

@@ -4,11 +4,13 @@
 // has no part (Nelson 1976, AIAA J. 14, 1201). For modes of equal frequency the derivatives are the eigenvalues of the
 // matrix phi_i . (dK/dp - omega^2 dM/dp) phi_j, in ascending order.
 //
-// phi . K phi is twice the elastic energy of a small displacement along phi, a sum of positive terms, so that it has
-// few rounding errors; the product K phi would lose as many digits as the largest frequency of the mesh exceeds that of
-// the mode. Energies and masses of changed scenes are those of rebuilt models: every number that leaves the connections
-// of the mesh as they are may be a parameter. Their derivatives are differences of fourth order in steps of 0.3 % (0.3
-// degrees), or less if the scene does not allow such a step; no eigenproblem is solved.
+// phi . K phi is computed as twice the elastic energy of a small displacement along phi. The energy is a sum of
+// positive terms and has few rounding errors. The product K phi would be less accurate: its relative error is about
+// machine epsilon times the square of the mesh's highest frequency over that of the mode.
+//
+// dK/dp and dM/dp are differences of fourth order: the scene is built again with the parameter changed by -2, -1, 1 and
+// 2 steps of 0.3 % (0.3 degrees), or of less if the scene refuses such a value. Any number of the scene may be a
+// parameter if its changes keep the connections of the mesh. No eigenproblem of a changed scene is solved.
 #pragma once
 
 #include <filesystem>

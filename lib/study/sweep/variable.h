@@ -59,7 +59,7 @@ struct VariedValue {
   std::string label;             // "30", "coarse"
   std::optional<double> number;  // in the variable's unit
   Assignments set;               // scene keys; a text "=formula" is replaced by its value
-  Assignments definitions;       // named numbers for use in formulas, as those of the key `definitions` of a sweep
+  Assignments definitions;       // named numbers that the formulas of this variable may use
 };
 
 // A variable: a scene key by path, a name used in formulas, or named sets of keys.

@@ -121,9 +121,8 @@ void check_layers(const CheckContext& context, Warnings& out) {
     if (missing < kSmallestReported) continue;
     warn(out, context.config.at("regions").where(),
          "region '{}': plies that share a cell differ in transverse shear stiffness. One cell shears them alike, so "
-         "that "
-         "deflections may be up to about {:.2g} % too small and frequencies {:.2g} % too high. Give each ply cells of "
-         "its own, such as three cells through three plies",
+         "that deflections may be up to about {:.2g} % too small and frequencies {:.2g} % too high. Give each ply "
+         "cells of its own, such as three cells through three plies",
          region, 100 * missing / (1 + missing), 100 * (std::sqrt(1 + missing) - 1));
   }
 }
