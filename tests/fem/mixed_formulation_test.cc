@@ -106,7 +106,7 @@ TEST_P(Mixed, HasAForceThatIsTheDerivativeOfTheEnergyWithInvertedElements) {
   const auto error = [&](double h) {
     return std::abs((s.potential(q + h * d) - s.potential(q - h * d)) / (2 * h) + s.force(q).dot(d));
   };
-  EXPECT_NEAR(order(error(4e-5), error(2e-5)), 2, 0.3);
+  EXPECT_NEAR(order(error(6e-4), error(3e-4)), 2, 0.1);
 }
 
 // The damping matrix is minus the derivative of the force by the velocity, and the power is the dissipation.
