@@ -14,10 +14,9 @@
 namespace orthodyn {
 namespace {
 
-constexpr double kShift = 1e-6;     // shift s, relative to the first eigenvalue left out
-constexpr double kCoupling = 1e-5;  // largest accepted coupling of modes by damping, relative to an amplitude
-constexpr int kFirstCount = 20;     // number of modes of the first search for `below`
-constexpr int kMaxModesBelow = 2000;
+constexpr double kShift = 1e-6;       // shift s, relative to the first eigenvalue left out
+constexpr double kCoupling = 1e-5;    // largest accepted coupling of modes by damping, relative to an amplitude
+constexpr int kFirstCount = 20;       // number of modes of the first search for `below`
 constexpr double kRayleigh = 1e-6;    // accepted misfit of alpha M + beta K, relative to the largest entry
 constexpr double kNoDamping = 1e-13;  // relative to the largest entry; smaller parts are treated as zero
 
@@ -77,14 +76,6 @@ Vector product(const Pattern& pattern, const std::vector<double>& values, const 
   return y;
 }
 
-// The number of modes for the next search for those below `limit`, after `count` modes up to `reached`. Plates have
-// modes in proportion to the frequency, bars fewer, solids more.
-int more_modes(int count, double reached, double limit) {
-  constexpr double kMargin = 1.15, kFewest = 1.25, kMost = 4;
-  const double growth = kMargin * std::sqrt(limit / std::max(reached, limit / 100));
-  return static_cast<int>(std::ceil(count * std::clamp(growth, kFewest, kMost)));
-}
-
 }  // namespace
 
 ModalBasis::ModalBasis(const Model& model, const ModeLimit& limit) : model_(model) {
@@ -132,10 +123,10 @@ void ModalBasis::find_lowest(int count) {
 
 void ModalBasis::find_below(double frequency) {
   const double limit = std::pow(2 * std::numbers::pi * frequency, 2);
-  for (int count = kFirstCount;; count = std::min(more_modes(count, next_lambda_, limit), kMaxModesBelow)) {
+  for (int count = kFirstCount;; count = std::min(more_modes(count, next_lambda_, limit), kMostModesBelow)) {
     find_lowest(count);
     if (complete_ || next_lambda_ >= limit) break;
-    if (count >= kMaxModesBelow)
+    if (count >= kMostModesBelow)
       throw ConfigError(
           fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower `below`, or use "
                       "another integrator",

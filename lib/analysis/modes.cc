@@ -1,5 +1,7 @@
 #include "lib/analysis/modes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -56,6 +58,20 @@ Modes natural_modes(const Model& model, const State& about, int count) {
     out.modes.push_back(std::move(mode));
   }
   return out;
+}
+
+Modes natural_modes_below(const Model& model, const State& about, double frequency) {
+  constexpr int kFirstCount = 20;
+  const double limit = std::pow(2 * std::numbers::pi * frequency, 2);
+  for (int count = std::min(kFirstCount, model.num_dofs());;) {
+    Modes found = natural_modes(model, about, count);
+    const double reached = found.modes.back().lambda;
+    if (reached >= limit || count == model.num_dofs()) return found;
+    if (count >= kMostModesBelow)
+      throw ConfigError(
+          "", fmt::format("more than {} modes lie below {:.6g} Hz; lower the highest frequency", count, frequency));
+    count = std::min({more_modes(count, reached, limit), kMostModesBelow, model.num_dofs()});
+  }
 }
 
 }  // namespace orthodyn

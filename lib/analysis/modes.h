@@ -39,4 +39,8 @@ void fix_sign(Vector& shape);
 // if the iteration fails.
 Modes natural_modes(const Model& model, const State& about, int count);
 
+// Computes all modes below a frequency (Hz), and at least one above it if the model has one. Throws as natural_modes(),
+// and ConfigError if there are more than 2,000.
+Modes natural_modes_below(const Model& model, const State& about, double frequency);
+
 }  // namespace orthodyn

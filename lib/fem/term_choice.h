@@ -11,6 +11,7 @@
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/term.h"
 #include "lib/fem/terms/elasticity_options.h"
+#include "lib/fem/time_functions/time_function.h"
 #include "lib/mesh/mesh.h"
 #include "lib/ode/model.h"
 
@@ -40,6 +41,9 @@ class TermChoice {
 
   // Node pairs without a common element that the term's tangent couples.
   virtual NodePairs couplings(const Mesh& /*mesh*/) const { return {}; }
+
+  // The factor in time of a load; null for terms without one.
+  virtual const TimeFunction* factor_in_time() const { return nullptr; }
 
   // Whether -df/dx is symmetric, apart from velocity-dependent forces, for a body that is held in the coordinates
   // `held` (3 * node + component). If not, statics store the general K, and dynamics use its symmetric part.

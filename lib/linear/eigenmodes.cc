@@ -263,4 +263,10 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
   return pairs;
 }
 
+int more_modes(int count, double reached, double limit) {
+  constexpr double kMargin = 1.15, kFewest = 1.25, kMost = 4;
+  const double growth = kMargin * std::sqrt(limit / std::max(reached, limit / 100));
+  return static_cast<int>(std::ceil(count * std::clamp(growth, kFewest, kMost)));
+}
+
 }  // namespace orthodyn

@@ -39,4 +39,9 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
                              int count, const RigidMotions& rigid_motions = {},
                              ShiftedSolver solver = ShiftedSolver::automatic);
 
+// The number of modes for the next search for all modes with eigenvalues below `limit`, after `count` modes up to
+// `reached`. Plates have modes in proportion to the frequency, bars fewer, solids more.
+int more_modes(int count, double reached, double limit);
+inline constexpr int kMostModesBelow = 2000;  // at which such a search gives up
+
 }  // namespace orthodyn

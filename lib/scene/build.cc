@@ -223,7 +223,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   add_supports(std::move(supports), elements, density, rest, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
-  if (scene.is_static()) parts.loads_at = scene.time.end;
+  if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
   add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};

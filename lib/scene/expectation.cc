@@ -16,6 +16,11 @@ void check_expectation(const Expectation& e, const Config& config) {
   if (e.relative.has_value() == e.absolute.has_value()) config.fail("give exactly one of relative, absolute");
   if (e.relative && e.value == 0) config.at("relative").fail("cannot be used with the value 0; give 'absolute'");
   check_take(e.take, e.at, e.of, config);
+  if (e.response || e.frequency) {
+    if (e.is_eigenvalue() || e.take != TimeReduction::end || e.at || e.of)
+      config.fail("'response' and 'frequency' are for quantities of a harmonic analysis, without take, at and of");
+    check_response_metric(e.response_metric(), e.frequency, config);
+  }
   if (e.source.empty()) config.at("source").fail("is empty; give the source of the value");
   if (e.reason.empty()) config.at("reason").fail("is empty; give the reason for this tolerance");
 }
@@ -28,6 +33,32 @@ void check_take(TimeReduction take, const std::optional<double>& at, const std::
   const bool compares = take == TimeReduction::drift || take == TimeReduction::gain || take == TimeReduction::onset;
   if (of && !compares) config.at("of").fail("is used with take: drift, gain or onset only");
   if (!of && take == TimeReduction::onset) config.fail("take: onset needs 'of', the threshold");
+}
+
+ResponseMetric default_response(const std::optional<double>& frequency) {
+  return frequency ? ResponseMetric::amplitude : ResponseMetric::peak;
+}
+
+void check_response_metric(ResponseMetric response, const std::optional<double>& frequency, const Config& config) {
+  const bool is_peak = response == ResponseMetric::peak || response == ResponseMetric::peak_frequency;
+  if (is_peak && frequency) config.at("frequency").fail("is for amplitude and phase; a peak has its own frequency");
+  if (!is_peak && !frequency) config.fail("key 'frequency' is missing: amplitude and phase are those at a frequency");
+}
+
+std::string metric_unit(ResponseMetric response, const std::string& quantity_unit) {
+  if (response == ResponseMetric::phase) return "rad";
+  return response == ResponseMetric::peak_frequency ? "Hz" : quantity_unit;
+}
+
+std::string response_title(ResponseMetric response, const std::string& quantity,
+                           const std::optional<double>& frequency) {
+  switch (response) {
+    case ResponseMetric::peak: return fmt::format("largest amplitude of {}", quantity);
+    case ResponseMetric::peak_frequency: return fmt::format("frequency of the largest amplitude of {}", quantity);
+    case ResponseMetric::amplitude:
+    case ResponseMetric::phase: break;
+  }
+  return fmt::format("{} of {} at {:.6g} Hz", Value<ResponseMetric>::yaml(response), quantity, *frequency);
 }
 
 std::string metric_unit(TimeReduction take, const std::string& quantity_unit) {
@@ -61,6 +92,8 @@ const Spec<Expectation>& Expectation::spec() {
                {.range = {1, 1000}})
           .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, instead of `take`.", {.unit = "s"})
+          .key("response", &Expectation::response, kResponseSentence)
+          .key("frequency", &Expectation::frequency, kFrequencySentence, {.unit = "Hz", .range = kPositive})
           .key("value", &Expectation::value, "The expected metric, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})
           .key("source", &Expectation::source, "Source of the value.", {.required = true})
@@ -77,11 +110,20 @@ const Spec<Expectation>& Expectation::spec() {
   return s;
 }
 
+ResponseMetric Expectation::response_metric() const { return response.value_or(default_response(frequency)); }
+
 void Expectation::require_units(const std::string& quantity_unit) const {
-  const std::string unit = metric_unit(take, quantity_unit);
+  require_unit(metric_unit(take, quantity_unit));
+  if (of) of->require(quantity_unit, {origin.where + ".of"});
+}
+
+void Expectation::require_response_units(const std::string& quantity_unit) const {
+  require_unit(metric_unit(response_metric(), quantity_unit));
+}
+
+void Expectation::require_unit(const std::string& unit) const {
   value.require(unit, {origin.where + ".value"});
   if (absolute) absolute->require(unit, {origin.where + ".absolute"});
-  if (of) of->require(quantity_unit, {origin.where + ".of"});
 }
 
 double Expectation::limit() const { return relative ? *relative * std::abs(value) : absolute.value_or(0.0).si(); }
@@ -89,6 +131,7 @@ double Expectation::limit() const { return relative ? *relative * std::abs(value
 std::string Expectation::title() const {
   if (mode) return fmt::format("frequency of mode {}", *mode);
   if (buckling) return fmt::format("critical load factor {}", *buckling);
+  if (response || frequency) return response_title(response_metric(), quantity, frequency);
   if (at) return fmt::format("{} at {:.6g} s", quantity, *at);
   return fmt::format("{} of {}", Value<TimeReduction>::yaml(take), quantity);
 }

@@ -15,11 +15,6 @@ struct EnumNames<MassKind> {
       {{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}}};
 };
 template <>
-struct EnumNames<Analysis> {
-  static constexpr std::array<std::pair<Analysis, const char*>, 3> list{
-      {{Analysis::dynamic, "dynamic"}, {Analysis::statical, "static"}, {Analysis::buckling, "buckling"}}};
-};
-template <>
 struct EnumNames<Start> {
   static constexpr std::array<std::pair<Start, const char*>, 2> list{
       {{Start::rest, "rest"}, {Start::equilibrium, "equilibrium"}}};
@@ -60,9 +55,11 @@ const Spec<Scene>& Scene::spec() {
   const Condition kDynamic{"analysis", "dynamic"};
   static const auto s =
       Spec<Scene>()
-          .key("analysis", &Scene::analysis,
-               "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
-               "buckling: linear buckling loads and shapes of the undeformed body.")
+          .key(
+              "analysis", &Scene::analysis,
+              "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
+              "buckling: linear buckling loads and shapes of the undeformed body. harmonic: the steady vibration under "
+              "loads with the factor `harmonic`, over a range of frequencies.")
           .key("mesh", &Scene::mesh, "The mesh: a generated shape, or a mesh file.", {.required = true})
           .key("materials", &Scene::materials,
                "Materials by name. Default: the materials and the axes of the regions from the mesh file (.veg, .inp).")
@@ -88,6 +85,8 @@ const Spec<Scene>& Scene::spec() {
           .key("statics", &Scene::statics, "Equilibrium solver, for analysis: static and start: equilibrium.")
           .key("buckling", &Scene::buckling, "Options of a buckling analysis.",
                {.with = Condition{"analysis", "buckling"}})
+          .key("harmonic", &Scene::harmonic, "Frequencies and damping of a harmonic analysis.",
+               {.with = Condition{"analysis", "harmonic"}})
           .key("events", &Scene::events,
                "Thresholds of quantities; a crossing is logged to events.csv or ends the run.", {.with = kDynamic})
           .key("output", &Scene::output, "Output files.")
@@ -133,11 +132,30 @@ bool varies_in_time(const SupportMotion& motion) {
   return motion.factor && !motion.factor->constant();
 }
 
+// Calls `check` with the factor in time of each load, and with the load's section.
+void for_each_factor(const Config& config, const Scene& scene,
+                     const std::function<void(const TimeFunction&, const Config&)>& check) {
+  for (std::size_t k = 0; k < scene.loads.size(); ++k) check(*scene.loads[k].factor, config.at("loads").at(k));
+  for (std::size_t k = 0; k < scene.terms.size(); ++k)
+    if (const TimeFunction* factor = scene.terms[k]->factor_in_time()) check(*factor, config.at("terms").at(k));
+}
+
+void refuse_harmonic_factors(const Config& config, const Scene& scene) {
+  constexpr const char* kMessage =
+      "factor: {type: harmonic} needs analysis: harmonic; a vibration in time is factor: {type: sine, frequency: ...}";
+  for_each_factor(config, scene, [](const TimeFunction& factor, const Config& load) {
+    if (factor.is_harmonic()) load.fail(kMessage);
+  });
+  for (const SupportMotion& motion : scene.motions)
+    if (motion.factor && motion.factor->is_harmonic()) motion.origin.fail(kMessage);
+}
+
 // Statics evaluate everything at one time, which the user must give.
 void require_time_of_statics(const Config& config, const Scene& scene) {
   constexpr const char* kAsk = "the factor varies in time: give time: {end: ...}, at which statics evaluate it";
-  for (const Load& load : scene.loads)
-    if (!load.factor->constant()) load.origin.fail(kAsk);
+  for_each_factor(config, scene, [](const TimeFunction& factor, const Config& load) {
+    if (!factor.constant()) load.fail(kAsk);
+  });
   for (std::size_t k = 0; k < scene.terms.size(); ++k) {
     Traits traits;
     scene.terms[k]->declare(traits);
@@ -178,10 +196,65 @@ void check_buckling(const Config& config, Scene& scene, bool is_timed) {
   if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
 }
 
+void check_losses(const Scene& scene) {
+  for (const auto& [name, loss] : scene.harmonic->losses) {
+    const auto has_name = [&name = name](const auto& material) { return material.first == name; };
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), has_name)) {
+      std::vector<std::string> names;
+      for (const auto& material : scene.materials) names.push_back(material.first);
+      loss.origin.fail(
+          fmt::format("unknown material '{}'{}; the scene has: {}", name, did_you_mean(name, names), join(names)));
+    }
+  }
+}
+
+bool vibrates(const Config& config, const Scene& scene) {
+  bool found = scene.harmonic->base_acceleration.has_value();
+  for_each_factor(config, scene, [&](const TimeFunction& factor, const Config& load) {
+    found = found || factor.is_harmonic();
+    if (!factor.is_harmonic() && !factor.constant())
+      load.fail(
+          "the factor varies in time: a load of a harmonic analysis is constant, or vibrates with factor: {type: "
+          "harmonic}");
+  });
+  return found;
+}
+
+void check_harmonic(const Config& config, Scene& scene, bool is_timed) {
+  if (!scene.harmonic) config.fail("key 'harmonic' is missing (section, with the keys 'from' and 'to' in Hz)");
+  if (is_timed && (scene.time.start != 0 || scene.time.end != 0))
+    config.at("time").fail("has no effect in a harmonic analysis; remove it");
+  if (!scene.motions.empty())
+    config.at("motions").fail(
+        "are not supported in a harmonic analysis; supports that vibrate together are harmonic.base_acceleration");
+  if (!vibrates(config, scene))
+    config.fail(
+        "no load vibrates: give a load the factor {type: harmonic}, or the supports harmonic.base_acceleration");
+  if (scene.harmonic->base_acceleration && scene.clamps.empty())
+    config.at("harmonic").at("base_acceleration").fail("needs supports: the scene has no 'clamps'");
+  const Output& output = scene.output;
+  const Output usual;
+  if (output.fields != usual.fields || !output.extremes.empty() || output.reactions || output.momentum ||
+      output.interval || output.frames || output.history)
+    config.at("output").fail(
+        "of a harmonic analysis has probes only: response.csv is the response at them; remove the other keys");
+  if (output.probes.empty())
+    config.fail("a harmonic analysis needs output.probes, the points at which the response is wanted");
+  if (!scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
+}
+
 void check_expectations(const Scene& scene) {
   if (scene.analysis == Analysis::buckling) return;
-  for (const Expectation& e : scene.expect)
+  const bool is_harmonic = scene.analysis == Analysis::harmonic;
+  for (const Expectation& e : scene.expect) {
     if (e.buckling) e.origin.fail("'buckling' needs analysis: buckling");
+    if (!is_harmonic && (e.response || e.frequency))
+      e.origin.fail("'response' and 'frequency' need analysis: harmonic");
+    if (is_harmonic && (e.take != TimeReduction::end || e.at || e.of))
+      e.origin.fail(
+          "a harmonic analysis has no time: instead of take, at and of, use response: amplitude, phase, peak or "
+          "peak_frequency");
+  }
 }
 
 bool is_given(const Config& section, const std::string& key) { return section.has(key) && !section.at(key).is_null(); }
@@ -243,10 +316,13 @@ Scene read_scene(const Config& input) {
     case Analysis::dynamic: check_dynamic(config, scene, is_timed); break;
     case Analysis::statical: check_static(config, scene, is_timed); break;
     case Analysis::buckling: check_buckling(config, scene, is_timed); break;
+    case Analysis::harmonic: check_harmonic(config, scene, is_timed); break;
   }
+  if (scene.analysis != Analysis::harmonic) refuse_harmonic_factors(config, scene);
   check_expectations(scene);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
+  if (scene.harmonic) check_losses(scene);
   require_admissible_materials(config, scene);
   complete_regions(config, scene);
   require_countable_times(config, scene);

@@ -19,6 +19,7 @@
 #include "lib/scene/elasticity.h"
 #include "lib/scene/events.h"
 #include "lib/scene/expectation.h"
+#include "lib/scene/harmonic.h"
 #include "lib/scene/initial.h"
 #include "lib/scene/output_files.h"
 #include "lib/scene/places.h"
@@ -28,7 +29,15 @@
 
 namespace orthodyn {
 
-enum class Analysis { dynamic, statical, buckling };
+enum class Analysis { dynamic, statical, buckling, harmonic };
+
+template <>
+struct EnumNames<Analysis> {
+  static constexpr std::array<std::pair<Analysis, const char*>, 4> list{{{Analysis::dynamic, "dynamic"},
+                                                                         {Analysis::statical, "static"},
+                                                                         {Analysis::buckling, "buckling"},
+                                                                         {Analysis::harmonic, "harmonic"}}};
+};
 
 // How a dynamic analysis starts: from the rest shape, or from the static equilibrium under the loads at the start.
 enum class Start { rest, equilibrium };
@@ -80,6 +89,7 @@ struct Scene {
   std::shared_ptr<const IntegratorChoice> integrator;  // null unless the analysis is dynamic
   std::optional<Statics> statics;                      // if the analysis is static or starts from equilibrium
   std::optional<Buckling> buckling;                    // for analysis: buckling
+  std::optional<Harmonic> harmonic;                    // for analysis: harmonic
   std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
@@ -89,7 +99,8 @@ struct Scene {
 
   static const Spec<Scene>& spec();
 
-  // Whether the analysis is static or buckling. Loads and supports are then evaluated at the end of the time span.
+  // Whether the analysis has no time steps. Loads and supports are then evaluated at the end of the time span, in a
+  // harmonic analysis at the times that stand for the parts of their amplitude (kRealPart).
   bool is_static() const { return analysis != Analysis::dynamic; }
 
   // All terms except elasticity, in the order of assembly: gravity, loads, terms.

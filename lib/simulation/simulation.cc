@@ -58,6 +58,7 @@ RunAnalysis analysis_of(const Scene& scene) {
   switch (scene.analysis) {
     case Analysis::statical: return run_static_analysis;
     case Analysis::buckling: return run_buckling_analysis;
+    case Analysis::harmonic: return run_harmonic_analysis;
     case Analysis::dynamic: break;
   }
   return run_dynamic_analysis;
@@ -125,7 +126,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
   if (!request.allow_large_output) require_allowed_output_size(setup);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   if (setup.scene.analysis != Analysis::dynamic)
-    refuse_dynamic_options(request, setup.scene.buckling ? "buckling" : "static");
+    refuse_dynamic_options(request, Value<Analysis>::yaml(setup.scene.analysis));
   return analysis_of(setup.scene)(
       {file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
 }

@@ -184,7 +184,7 @@ class Failures(InAFolder):
         self.fails_with("nowhere: no such result folder", "frame", self.folder / "nowhere")
         self.fails_with("energy.csv: missing", "energy", self.result)
         self.fails_with("neither frames.pvd nor any of energy.csv", "all", self.folder)
-        for analysis, instead in (("static", "draw load"), ("buckling", "draw modes")):
+        for analysis, instead in (("static", "draw load"), ("buckling", "draw modes"), ("harmonic", "draw response")):
             (self.result / "run.json").write_text(f'{{"analysis": "{analysis}"}}')
             self.fails_with(f"no energy over time: a {analysis} analysis has no motion", "energy", self.result)
             self.fails_with(instead, "energy", self.result)

@@ -8,6 +8,7 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::nearly_incompressible_test {

@@ -119,6 +119,19 @@ class AResult(InAFolder):
         tip = np.argmin(np.linalg.norm(result.points - [1, 0, 0], axis=1))
         np.testing.assert_array_equal(result.displacement[:, tip, 2], result.probes["tip.displacement.z"])
 
+    def test_of_a_harmonic_analysis_has_complex_amplitudes(self):
+        result = orthodyn.Scene({
+            "analysis": "harmonic", "mesh": beam()["mesh"], "materials": beam()["materials"], "clamps": [{"surface": "x0"}],
+            "loads": [{"surface": "x1", "force": [0, 0, 1], "factor": {"type": "harmonic"}}],
+            "harmonic": {"from": 1, "to": 60, "damping_ratio": 0.02}, "output": {"probes": {"tip": {"at": [1, 0, 0]}}}}).run()
+        self.assertEqual(result.status, "completed")
+        amplitudes, frequencies = result.response["tip.displacement.z"], result.response["frequency"]
+        self.assertLess(abs(np.angle(amplitudes[0])), 0.05)  # far below resonance, in phase with the force
+        peak = np.abs(amplitudes).argmax()
+        self.assertAlmostEqual(np.angle(amplitudes[peak]), -np.pi / 2, delta=0.3)
+        self.assertAlmostEqual(frequencies[peak], result.table("modes")["frequency"][0], delta=0.01 * frequencies[peak])
+        self.assertIn("lowest frequency", repr(result))
+
     def test_outlives_its_scene_and_arrays_outlive_the_result(self):
         array = orthodyn.Scene(beam()).run().displacement
         kept = array.copy()

@@ -175,7 +175,7 @@ loads: [{surface: x1, force: [-20, 0, 0]}]
   expect_refusal("run beam.yaml --set mass=consistent", "mass: lumped");
   expect_refusal("run beam.yaml --estimate-error", "--estimate-error");
   expect_refusal("run beam.yaml --slurm", "--slurm");
-  expect_refusal("run column.yaml", "buckling is analysed by one process");
+  expect_refusal("run column.yaml", "buckling: this analysis runs in one process");
 }
 
 // As by Ctrl-C, which reaches mpirun: results are kept, and the run can be resumed.

@@ -53,6 +53,16 @@ def _load(args):
     yield load_path.draw_load_path(series.result_folder(args.result), _out(args, "load"))
 
 
+def _response(args):
+    from . import response, series
+    yield response.draw_response(series.result_folder(args.result), _out(args, "response"))
+
+
+def _spectrum(args):
+    from . import series, spectrum
+    yield spectrum.draw_spectrum(series.result_folder(args.result), _out(args, "spectrum"))
+
+
 def _compare(args):
     from .compare import draw_comparison
     yield from draw_comparison(args.results, args.out or Path(args.results[-1]) / "pictures")
@@ -74,12 +84,14 @@ def _all(args):
     """Draws everything that the folder has data for."""
     from .curves import CURVES
     from .load_path import has_load_path
+    from .response import has_response
     from .series import result_folder
     folder = result_folder(args.result)
     parts = [(name, (folder / f"{name}.csv").is_file(), _curve) for name in CURVES]
     parts = [(name, (folder / "frames.pvd").is_file(), run) for name, run in
              (("strip", _strip), ("animate", _animate))] + parts
     parts.append(("load", has_load_path(folder), _load))
+    parts.append(("response", has_response(folder), _response))
     parts.append(("modes", (folder / "modes.pvd").is_file(), _modes_of_run))
     if not any(present for _, present, _ in parts):
         raise DrawError(f"{folder}: neither frames.pvd nor any of {', '.join(f'{c}.csv' for c in CURVES)}; "
@@ -136,7 +148,8 @@ def _view(args):
         yield page.write_view(sources_of(args.results), args.out, extent, start)
 
 
-COMMANDS = {"view": _view, "report": _report, "compare": _compare, "load": _load, "axes": _axes, "modes": _modes,
+COMMANDS = {"view": _view, "report": _report, "compare": _compare, "load": _load, "response": _response,
+            "spectrum": _spectrum, "axes": _axes, "modes": _modes,
             "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
 
 

@@ -99,7 +99,7 @@ def draw_steps(table, path):
     return save(figure, path)
 
 
-def _by_vector(columns):
+def by_vector(columns):
     """Groups columns by panel: those whose names differ only in the last part (.x, .y, .z)."""
     groups = {}
     for column in columns:
@@ -109,7 +109,7 @@ def _by_vector(columns):
 
 def draw_components(table, path):
     """Draws probes or momentum: one panel per vector, one line per component."""
-    groups = _by_vector(table.others())
+    groups = by_vector(table.others())
     longest = max(len(c.name.rpartition(".")[2]) for c in table.others())
     figure, axes = panels([1.7 if len(groups) > 1 else 3.0] * len(groups), right=0.45 + 0.08 * longest)
     times = time_axis(axes[-1], table.axis.values, table.axis.unit, table.axis.name)
@@ -125,7 +125,8 @@ CURVES = {"energy": draw_energy, "steps": draw_steps, "probes": draw_components,
 
 MOTION = ("energy", "steps", "momentum")  # files of motions only
 INSTEAD = {"static": "draw the load path (draw load), its probes (draw probes) or a frame (draw frame)",
-           "buckling": "draw its shapes (draw modes)"}
+           "buckling": "draw its shapes (draw modes)",
+           "harmonic": "draw its response (draw response) or its modes (draw modes)"}
 
 
 def draw_curve(kind, folder, path):

@@ -136,6 +136,8 @@ def _parser():
     command("probes", "Probed values over time, from probes.csv.")
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
     command("load", "Load factor over displacement of a static analysis.")
+    command("response", "Amplitude and phase over the frequency of a harmonic analysis.")
+    command("spectrum", "Amplitude spectra of probed values, from probes.csv with rows at equal intervals.")
     both = "Probes and energies of two to four results in the same plots, with their differences."
     compare = commands.add_parser("compare", help=both, description=both)
     compare.add_argument("results", metavar="RESULT", nargs="+", help="result folders of `orthodyn run`")
@@ -154,7 +156,7 @@ def _parser():
                       help="direction of view of the surface in degrees (default -60,20; z is up)")
     modes = commands.add_parser("modes", help="Natural modes or buckling shapes side by side.",
                                 description="Natural modes or buckling shapes side by side as PNG, with the rest shape's outline.")
-    modes.add_argument("result", metavar="RESULT", help="folder of `orthodyn modes`, or of a run with analysis: buckling")
+    modes.add_argument("result", metavar="RESULT", help="folder of `orthodyn modes`, or of a run with analysis: buckling or harmonic")
     modes.add_argument("--out", type=Path, metavar="PNG", help="default: RESULT/modes.png")
     modes.add_argument("--count", type=_count, default=12, metavar="N",
                        help="the N lowest modes that deform the body (default 12)")

@@ -10,6 +10,7 @@
 #include "lib/analysis/strain_limits.h"
 #include "lib/core/memory.h"
 #include "lib/core/symmetric_eigen.h"
+#include "lib/linear/solver.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/preflight/output_size.h"
@@ -107,6 +108,17 @@ void print_statics(const Setup& setup, const StaticProblem& problem) {
   print_memory(*setup.built.model, "", 0, problem.solver->factor_bytes());
 }
 
+void print_harmonic(const Setup& setup) {
+  const Harmonic& harmonic = *setup.scene.harmonic;
+  fmt::print("harmonic\n");
+  if (harmonic.frequencies) fmt::print("  {}", fmt::format("{} given frequencies", harmonic.frequencies->size()));
+  else fmt::print("  {} frequencies{}", harmonic.points, harmonic.resonances ? " and those beside resonances" : "");
+  fmt::print(" from {:.6g} to {:.6g} Hz\n", harmonic.lowest(), harmonic.highest());
+  if (harmonic.damping_ratio > 0) fmt::print("  damping ratio {:.4g} of each mode\n", harmonic.damping_ratio);
+  for (const auto& [material, loss] : harmonic.losses) fmt::print("  losses of {}\n", material);
+  print_memory(*setup.built.model, "", 0, make_solver_for(setup.built.model->pattern())->factor_bytes());
+}
+
 void print_supports(const FemModel& model) {
   const auto& parts = model.parts();
   const auto coordinates = 3 * parts.mesh.nodes.size();
@@ -139,7 +151,7 @@ int check(const CheckArguments& arguments) {
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   std::optional<StaticProblem> statics;  // throws for a body with rigid motions
-  if (!setup.integrator) statics.emplace(static_problem(setup.scene, setup.built));
+  if (!setup.integrator && !setup.scene.harmonic) statics.emplace(static_problem(setup.scene, setup.built));
   fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", except for the missing 'time'");
   fmt::print("mesh\n  {} nodes, {}, regions {}\n", parts.mesh.nodes.size(), describe_cells(parts.mesh.cells),
              join(parts.mesh.region_names));
@@ -157,7 +169,9 @@ int check(const CheckArguments& arguments) {
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
-  statics ? print_statics(setup, *statics) : print_dynamics(setup);
+  if (setup.scene.harmonic) print_harmonic(setup);
+  else if (statics) print_statics(setup, *statics);
+  else print_dynamics(setup);
   warn_of_memory(setup);
   if (has_time || !setup.integrator) print_predicted_cost(setup, has_time);
   if (arguments.axes)

@@ -114,6 +114,11 @@ void list_buckling() {
   print_entry("buckling", "Computation of critical load factors, for analysis: buckling.", Buckling::spec().keys());
 }
 
+void list_harmonic() {
+  print_entry("harmonic", "Frequencies and damping, for analysis: harmonic.", Harmonic::spec().keys());
+  print_entry("harmonic.losses.<material>", "Loss factors of a material.", MaterialLoss::spec().keys());
+}
+
 void list_events() {
   print_entry("events.<n>", "A value of a quantity whose crossing is logged or ends the run.",
               EventSpec::spec().keys());
@@ -192,6 +197,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& list_chapters(
       {"solvers", list_solvers},
       {"statics", list_statics},
       {"buckling", list_buckling},
+      {"harmonic", list_harmonic},
       {"events", list_events},
       {"expect", list_expectations},
       {"comparison", list_comparison},

@@ -58,7 +58,7 @@ void print_time(const Setup& setup, const RunCost& cost) {
   if (cost.factor) fmt::print("  factorisation {:.3g} s, solution {:.3g} s\n", *cost.factor, *cost.solve);
   else if (!setup.integrator || setup.integrator->factor_bytes() > 0)
     fmt::print("  without factorisations: they are not measured\n");
-  if (!setup.scene.buckling) {
+  if (!setup.scene.buckling && !setup.scene.harmonic) {
     fmt::print("  {}steps {}\n", setup.integrator ? "" : "load ", shown_steps(cost));
     fmt::print("  of {} each\n", shown_seconds(cost.step));
     fmt::print("  outputs {}\n", shown_outputs(cost));
@@ -79,6 +79,10 @@ void print_faster(const Setup& setup, const RunCost& cost) {
 void print_disk(const Setup& setup) {
   const OutputSize size = output_size_of(setup);
   fmt::print("disk\n");
+  if (setup.scene.harmonic) {
+    fmt::print("  a row of response.csv for each frequency, and a shape for each mode\n");
+    return;
+  }
   fmt::print("  {}{:.0f} frames of {}\n", setup.integrator || setup.scene.buckling ? "" : "at least ", size.frames,
              shown_bytes(size.frame_bytes));
   if (size.rows > 0) fmt::print("  {:.0f} rows of tables of {}\n", size.rows, shown_bytes(size.row_bytes));

@@ -179,6 +179,27 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
+void print_harmonic(const RunResult& result, const HarmonicResult& harmonic) {
+  fmt::print("{}, harmonic: {} unknowns, {} after {:.2f} s\n", result.scene, result.model.unknowns,
+             status_word(result.outcome.status), result.outcome.wall_seconds);
+  if (result.outcome.status != Outcome::Status::completed) return;
+  fmt::print("  {:<20} {}\n", "vibration about", harmonic.is_loaded ? "the equilibrium under steady loads" : "rest");
+  fmt::print("  {:<20} {} from {:.6g} to {:.6g} Hz\n", "frequencies", harmonic.frequencies, harmonic.lowest,
+             harmonic.highest);
+  fmt::print("  {:<20} about {:.1e} for this mesh, from {} vectors (harmonic.rtol {:.1e})\n", "amplitude error",
+             harmonic.error, harmonic.basis, harmonic.rtol);
+  if (!harmonic.modes.empty()) fmt::print("  mode  frequency [Hz]   damping ratio   mesh error\n");
+  for (std::size_t k = 0; k < harmonic.modes.size(); ++k) {
+    const auto& [frequency, damping_ratio, mesh_error] = harmonic.modes[k];
+    fmt::print("  {:4}  {:>14}  {:>14.4g}  {:>11}\n", k + 1, known_digits(frequency, mesh_error), damping_ratio,
+               mesh_error == 0 ? "" : fmt::format("{:+.2g} %", 100 * mesh_error));
+  }
+  fmt::print("  largest amplitudes\n");
+  for (const auto& [quantity, unit, frequency, amplitude] : harmonic.peaks)
+    fmt::print("    {:<34} {:>10.4g} {:<6} at {:.6g} Hz\n", quantity, amplitude, unit, frequency);
+  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+}
+
 void print_how_to_continue(const RunResult& result) {
   if (result.outcome.status == Outcome::Status::interrupted)
     fmt::print(stderr, "interrupted at t = {:.6g} s; the results so far are in {}\n", result.outcome.last.t,
@@ -199,6 +220,7 @@ void print_result(const RunResult& result, bool quiet) {
   if (result.outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", result.outcome.message);
   if (result.equilibrium && !quiet) print_equilibrium(result, *result.equilibrium);
   if (result.buckling && !quiet) print_buckling(result, *result.buckling);
+  if (result.harmonic && !quiet) print_harmonic(result, *result.harmonic);
   if (result.motion && !quiet) print_motion(result, *result.motion);
   for (const auto& warning : result_warnings(result)) fmt::print(stderr, "warning: {}\n", warning);
   if (result.motion) print_how_to_continue(result);

@@ -22,6 +22,7 @@ struct Load : TermChoice {
   static const Spec<Load>& spec();
 
   std::unique_ptr<Term> make(const Discretization& body) const override;
+  const TimeFunction* factor_in_time() const override { return factor.get(); }
   void declare(Traits& traits) const override;
 };
 

@@ -46,6 +46,7 @@ class NodalForcesChoice : public TermChoice {
     return std::make_unique<DeadLoad>(name, std::move(forces), factor_, std::move(amount));
   }
 
+  const TimeFunction* factor_in_time() const override { return factor_.get(); }
   void declare(Traits& traits) const override { declare_load(*factor_, traits); }
 
   SourceLocation origin;

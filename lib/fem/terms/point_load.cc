@@ -28,6 +28,7 @@ class PointLoadChoice : public TermChoice, public Selection {
                                       counted(static_cast<long>(selected.size()), "node"));
   }
 
+  const TimeFunction* factor_in_time() const override { return factor_.get(); }
   void declare(Traits& traits) const override { declare_load(*factor_, traits); }
 
  private:

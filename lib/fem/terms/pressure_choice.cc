@@ -44,6 +44,8 @@ class PressureChoice : public TermChoice {
     return has_symmetric_stiffness({mesh, surface_or_all(mesh, surface_, origin), pressure_}, rest, held);
   }
 
+  const TimeFunction* factor_in_time() const override { return factor_.get(); }
+
   // The stiffness of follower pressure depends on the shape. Its work on an open surface depends on the path.
   void declare(Traits& traits) const override {
     declare_load(*factor_, traits);

@@ -38,6 +38,7 @@ double row_bytes_of(const Setup& setup) {
 
 double frames_of(const Scene& scene) {
   if (scene.buckling) return scene.buckling->count;
+  if (scene.harmonic) return 0;
   if (scene.is_static()) return fewest_load_steps(*scene.statics);
   const double span = scene.time.end - scene.time.start;
   return scene.output.interval ? std::ceil(span / *scene.output.interval) : scene.output.frames.value_or(kUsualFrames);

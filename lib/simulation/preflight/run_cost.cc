@@ -131,6 +131,14 @@ void add_buckling(RunCost& cost) {
   cost.steps = {1, 1};
 }
 
+// A harmonic analysis takes the tangent, two factorisations, Lanczos solutions, and two solutions at ten frequencies.
+void add_harmonic(RunCost& cost) {
+  constexpr double kTangents = 3, kFactors = 2, kFewestSolutions = 60, kMaxSolutions = 1000;
+  const double fixed = kTangents * cost.tangent + kFactors * cost.factor.value_or(0);
+  cost.step = {fixed + kFewestSolutions * cost.solve.value_or(0), fixed + kMaxSolutions * cost.solve.value_or(0)};
+  cost.steps = {1, 1};
+}
+
 // Time (s) of `evaluate` on a new view of the state, as at an output time. The second call is measured, when data
 // shared by all views exist.
 template <class Evaluate>
@@ -217,8 +225,8 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   for (const TermCost& term : costs) cost.force += term.force, cost.tangent += term.tangent;
   const bool is_implicit = !setup.integrator || setup.integrator->factor_bytes() > 0;
   if (is_implicit) measure_factor(setup, cost);
-  if (setup.scene.buckling) {
-    add_buckling(cost);
+  if (setup.scene.buckling || setup.scene.harmonic) {
+    setup.scene.buckling ? add_buckling(cost) : add_harmonic(cost);
     return cost;
   }
   setup.integrator ? add_time_steps(setup, is_implicit, cost) : add_load_steps(*setup.scene.statics, cost);

@@ -170,7 +170,8 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool resumes_li
   const double allowed = allowed_error(scene);
   const std::string only_linear = only_linear_integrator(config, scene);
   KinematicsChoice choice;
-  if (scene.analysis == Analysis::buckling) {  // linear kinematics have no stress stiffness, which buckling needs
+  // Linear kinematics have no stress stiffness, which buckling and vibrations about a loaded state need.
+  if (scene.analysis == Analysis::buckling || scene.analysis == Analysis::harmonic) {
     make_corotational(config);
     scene = read_scene(config);
     return {std::move(choice), build(scene), nullptr};

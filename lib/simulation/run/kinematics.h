@@ -35,7 +35,8 @@ bool has_linear_region(const Scene& scene);
 void make_corotational(Config& config);
 
 // Builds a scene with `auto` kinematics. Regions with `auto` become linear, except those for which the linear static
-// response predicts a clearly larger error than allowed. In a buckling analysis all become corotational. The document
+// response predicts a clearly larger error than allowed. In a buckling or harmonic analysis all become
+// corotational. The document
 // is changed accordingly: rejected regions become `corotational`; accepted ones stay `auto`, with the allowed error in
 // elasticity.linear_error, so that a resumed run watches them, too. `resumes_linear`: the run resumes with linear
 // kinematics, so that no error is predicted. Throws ConfigError, also if corotational kinematics are needed and the

@@ -1,11 +1,13 @@
 #include "lib/simulation/run/result_warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "lib/core/spelling.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
 
 namespace orthodyn {
@@ -115,11 +117,27 @@ void add_warnings(const EquilibriumResult& equilibrium, std::vector<std::string>
                 equilibrium.residual / equilibrium.largest_load);
 }
 
+void add_warnings(const HarmonicResult& harmonic, std::vector<std::string>& all) {
+  if (harmonic.error > harmonic.rtol)
+    add_warning(all,
+                "amplitudes have an estimated error of {:.1e}, more than harmonic.rtol, {:.1e}: strong damping couples "
+                "the modes. Increase rtol if this is enough, or lower the highest frequency",
+                harmonic.error, harmonic.rtol);
+  if (!harmonic.missed.empty())
+    add_warning(all,
+                "the frequencies miss {}: none is within half a bandwidth of the natural frequency of {} {}, so that "
+                "peaks are too low. Give more frequencies there, or from, to and resonances: true",
+                counted(static_cast<long>(harmonic.missed.size()), "resonance"),
+                harmonic.missed.size() == 1 ? "mode" : "modes", fmt::join(harmonic.missed, ", "));
+  if (!harmonic.mesh_warning.empty()) all.push_back(harmonic.mesh_warning);
+}
+
 }  // namespace
 
 std::vector<std::string> result_warnings(const RunResult& result) {
   std::vector<std::string> all;
   if (result.buckling && result.buckling->unsymmetric) all.push_back(kUnsymmetricLoads);
+  if (result.harmonic) add_warnings(*result.harmonic, all);
   add_warnings(result.outcome, all);
   if (result.equilibrium) add_warnings(*result.equilibrium, all);
   if (const auto& strain = result.exceeded_strain)

@@ -1,4 +1,4 @@
-// The request for a run, and the common arguments of the dynamic, static and buckling analyses.
+// The request for a run, and the common arguments of the dynamic, static, buckling and harmonic analyses.
 #pragma once
 
 #include <atomic>
@@ -43,5 +43,6 @@ using RunAnalysis = RunResult (*)(RunContext context);
 RunResult run_dynamic_analysis(RunContext context);
 RunResult run_static_analysis(RunContext context);
 RunResult run_buckling_analysis(RunContext context);
+RunResult run_harmonic_analysis(RunContext context);
 
 }  // namespace orthodyn

@@ -213,6 +213,22 @@ void add_buckling(Json& out, const BucklingResult& buckling, const Outcome& outc
   if (outcome.status == Outcome::Status::failed) out["failure"] = failure_json(outcome);
 }
 
+void add_harmonic(Json& out, const HarmonicResult& harmonic, const Outcome& outcome) {
+  out["about_equilibrium"] = harmonic.is_loaded;
+  out["frequencies"] = {{"count", harmonic.frequencies}, {"lowest", harmonic.lowest}, {"highest", harmonic.highest}};
+  out["modes"] = Json::array();
+  for (const auto& mode : harmonic.modes)
+    out["modes"].push_back(
+        {{"frequency", mode.frequency}, {"damping_ratio", mode.damping_ratio}, {"mesh_error", mode.mesh_error}});
+  for (const auto& peak : harmonic.peaks)
+    out["peaks"][peak.quantity] = {{"frequency", peak.frequency}, {"amplitude", peak.amplitude}, {"unit", peak.unit}};
+  out["basis"] = harmonic.basis;
+  out["error"] = harmonic.error;
+  out["wall_seconds"] = outcome.wall_seconds;
+  out["cpu_seconds"] = outcome.cpu_seconds;
+  if (outcome.status == Outcome::Status::failed) out["failure"] = failure_json(outcome);
+}
+
 }  // namespace
 
 RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
@@ -226,10 +242,12 @@ void RunRecord::finish(const RunResult& result) const {
   out["ranks"] = result.ranks;
   if (result.equilibrium) out["analysis"] = "static";
   if (result.buckling) out["analysis"] = "buckling";
+  if (result.harmonic) out["analysis"] = "harmonic";
   out["model"] = model_json(result.model, begin_.at("model").at("given"));
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
   if (result.buckling) add_buckling(out, *result.buckling, result.outcome);
+  if (result.harmonic) add_harmonic(out, *result.harmonic, result.outcome);
   for (const RecordedExtreme& extreme : result.extremes) out["extremes"][extreme.quantity] = to_json(extreme);
   if (const auto errors = error_balance(result)) out["errors"] = errors_json(*errors);
   if (const auto warnings = result_warnings(result); !warnings.empty()) out["warnings"] = warnings;

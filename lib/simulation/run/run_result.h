@@ -113,14 +113,37 @@ struct BucklingResult {
   std::vector<Mode> modes = {};
 };
 
+// Result of a harmonic analysis.
+struct HarmonicResult {
+  bool is_loaded = false;  // the body vibrates about the equilibrium under steady loads
+  std::size_t frequencies = 0;
+  double lowest = 0, highest = 0;  // Hz
+  struct Mode {
+    double frequency = 0, damping_ratio = 0;  // Hz, -
+    double mesh_error = 0;                    // estimated relative error of the frequency; positive if it is too high
+  };
+  std::vector<Mode> modes = {};  // up to the highest frequency
+  // Largest amplitude of each quantity.
+  struct Peak {
+    std::string quantity, unit;
+    double frequency = 0, amplitude = 0;
+  };
+  std::vector<Peak> peaks = {};
+  long basis = 0;                 // number of vectors
+  double error = 0, rtol = 0;     // estimated relative error of the amplitudes for this mesh, and the requested one
+  std::vector<int> missed = {};   // modes whose resonance can lie between two frequencies
+  std::string mesh_warning = {};  // frequency_warning(); or ""
+};
+
 struct RunResult {
   std::string scene;  // file name
   std::filesystem::path folder;
   Outcome outcome = {};
   ModelSummary model = {};
-  std::optional<MotionResult> motion = {};  // one of the three is set; none if already complete
+  std::optional<MotionResult> motion = {};  // one of the four is set; none if already complete
   std::optional<EquilibriumResult> equilibrium = {};
   std::optional<BucklingResult> buckling = {};
+  std::optional<HarmonicResult> harmonic = {};
   std::vector<RecordedExtreme> extremes = {};
   std::optional<ExceededStrain> exceeded_strain = {};        // if the strain limit of the law was exceeded
   bool was_complete = false;                                 // the run to be resumed was already complete

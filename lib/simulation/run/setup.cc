@@ -12,6 +12,7 @@
 #include "lib/linear/blas.h"
 #include "lib/scene/events.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/harmonic/response_columns.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "lib/simulation/run/outcome.h"
@@ -43,6 +44,10 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
 }
 
 void check_outputs(const Scene& scene, const FemModel& model) {
+  if (scene.harmonic) {
+    response_columns(scene, model);  // throws for an unknown field
+    return;
+  }
   const FrameFields& fields = scene.output.fields;
   check_fields(model, fields, {Location::node, Location::cell}, fields.origin);
   for (const auto& field : fields) require_strengths(field, "", model, fields.origin);
@@ -58,6 +63,11 @@ void check_expectations(const Scene& scene, const FemModel& model) {
   for (const auto& e : scene.expect) {
     if (e.is_eigenvalue()) {
       e.require_units(e.mode ? "Hz" : "");
+      continue;
+    }
+    if (scene.harmonic) {
+      const auto columns = response_columns(scene, model);
+      e.require_response_units(columns[find_column(columns, e.quantity, e.origin)].unit);
       continue;
     }
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);

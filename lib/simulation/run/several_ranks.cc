@@ -9,8 +9,9 @@
 namespace orthodyn {
 
 void adapt_to_ranks(Config& config, Scene& scene) {
-  if (scene.analysis == Analysis::buckling)
-    config.at("analysis").fail("buckling is analysed by one process, not on several ranks");
+  if (scene.analysis == Analysis::buckling || scene.analysis == Analysis::harmonic)
+    config.at("analysis")
+        .fail(Value<Analysis>::yaml(scene.analysis) + ": this analysis runs in one process, not on several ranks");
   if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {
     std::vector<std::string> names;
     for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())

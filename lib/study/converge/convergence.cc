@@ -6,6 +6,7 @@
 
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/harmonic/response_columns.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/scene_file.h"
 
@@ -29,11 +30,13 @@ void add(Named<WantedMetric>& metrics, TimeReduction take, const std::string& qu
 }
 
 // "max of tip.displacement.z"
-void add_named(Named<WantedMetric>& metrics, const std::string& text) {
+void add_named(Named<WantedMetric>& metrics, const std::string& text, bool is_harmonic) {
   const auto of = text.find(" of ");
   if (of == std::string::npos) return add(metrics, TimeReduction::end, text);
   const Config take = Config::from_text(text.substr(0, of), "--quantity " + text);
-  add(metrics, Value<TimeReduction>::read(take, {}), text.substr(of + 4));
+  if (is_harmonic)
+    add(metrics, {.quantity = text.substr(of + 4), .response = Value<ResponseMetric>::read(take, {})}, text);
+  else add(metrics, Value<TimeReduction>::read(take, {}), text.substr(of + 4));
 }
 
 // Default metrics: the scene's expectations, otherwise the displacements of its probes, otherwise its elastic energy.
@@ -42,9 +45,23 @@ void add_defaults(Named<WantedMetric>& metrics, const Scene& scene) {
   for (const Expectation& e : scene.expect)
     if (e.is_eigenvalue()) add(metrics, {.mode = e.mode, .buckling = e.buckling}, e.title());
     else if (e.quantity != kEnergyBalance)
-      add(metrics, {.quantity = e.quantity, .take = e.take, .at = e.at, .of = e.of}, e.title());
+      add(metrics,
+          {.quantity = e.quantity,
+           .take = e.take,
+           .at = e.at,
+           .of = e.of,
+           .response = e.response,
+           .frequency = e.frequency},
+          e.title());
   if (!metrics.empty()) return;
   for (const auto& [name, probe] : scene.output.probes) {
+    if (scene.harmonic) {
+      for (const char* component : {"x", "y", "z"}) {
+        const std::string quantity = name + ".displacement." + component;
+        add(metrics, {.quantity = quantity, .response = ResponseMetric::peak}, "peak of " + quantity);
+      }
+      continue;
+    }
     if (!is_static) add(metrics, TimeReduction::max, name + ".displacement.magnitude");
     add(metrics, TimeReduction::end, name + ".displacement.magnitude");
   }
@@ -75,13 +92,17 @@ Design design_of(const Convergence& wanted) {
   const Config config = read_scene_file(wanted.file, {.set = wanted.set});
   const Scene scene = read_scene(config);
   Design design;
-  for (const auto& text : wanted.quantities) add_named(design.metrics, text);
+  for (const auto& text : wanted.quantities) add_named(design.metrics, text, scene.harmonic.has_value());
   if (wanted.quantities.empty() && wanted.modes == 0) add_defaults(design.metrics, scene);
   for (int mode = 1; mode <= wanted.modes; ++mode)
     add(design.metrics, {.mode = mode}, fmt::format("frequency of mode {}", mode));
   const BuiltScene built = build(scene);
   for (auto& [name, metric] : design.metrics) {
     if (metric.quantity.empty()) continue;
+    if (scene.harmonic) {
+      find_column(response_columns(scene, *built.model), metric.quantity, metric.origin);
+      continue;
+    }
     if (scene.is_static() && metric.take != TimeReduction::end)
       metric.origin.fail("a static analysis has only the value in equilibrium: remove '... of'");
     const Quantity q = find_quantity(metric.quantity, scene, *built.model, metric.origin);

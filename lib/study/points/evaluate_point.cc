@@ -16,6 +16,7 @@
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/points/evaluation.h"
+#include "lib/study/quantities/response_metric.h"
 #include "lib/study/quantities/series.h"
 #include "lib/study/quantities/wanted_modes.h"
 
@@ -38,7 +39,7 @@ WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& se
   WantedQuantities wanted;
   for (const auto& metric : input.metrics) {
     const WantedMetric& m = metric.second;
-    if (m.quantity.empty()) continue;
+    if (m.quantity.empty() || setup.scene.harmonic) continue;
     wanted.metrics.push_back(&metric);
     Expectation& e = wanted.expectations.emplace_back();
     e.quantity = m.quantity, e.take = m.take, e.at = m.at, e.of = m.of;
@@ -176,7 +177,8 @@ class Evaluation {
   void follow_motion(const Setup& setup) {
     describe(*setup.built.model);
     const WantedQuantities wanted = wanted_quantities(input_, setup);
-    if (setup.scene.is_static()) find_equilibrium(setup, wanted);
+    if (setup.scene.harmonic) find_response(setup);
+    else if (setup.scene.is_static()) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
     if (ranks_) sum_over_ranks(*result_.cost);
     if (result_.failure || exceeds_allowed_error(setup)) return;
@@ -218,6 +220,17 @@ class Evaluation {
       if (!found.locking_risk.empty()) result_.warnings.push_back(locking_warning(found.locking_risk));
     }
     draw(*setup.built.model, state);
+  }
+
+  void find_response(const Setup& setup) {
+    std::optional<HarmonicResponse> response;
+    if (!conclude(supervise(setup.built.initial, {}, [&](Outcome&) { response.emplace(setup); }), {})) return;
+    for (const auto& [name, m] : input_.metrics) {
+      if (m.quantity.empty()) continue;
+      const std::size_t column = find_column(response->columns(), m.quantity, m.origin);
+      keep(name, metric(*response, column, m.response_metric(), m.frequency),
+           metric_unit(m.response_metric(), response->columns()[column].unit));
+    }
   }
 
   void integrate(const Setup& setup, const WantedQuantities& wanted) {

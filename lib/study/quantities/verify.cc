@@ -10,6 +10,7 @@
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
+#include "lib/study/quantities/response_metric.h"
 #include "lib/study/quantities/series.h"
 #include "lib/study/quantities/wanted_modes.h"
 
@@ -67,6 +68,24 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
   return result;
 }
 
+CaseResult verify_response(const Setup& setup) {
+  const auto columns = response_columns(setup.scene, *setup.built.model);
+  CaseResult result{setup.config.file(), {}, {}};
+  for (const auto& e : setup.scene.expect) {
+    if (e.is_eigenvalue()) continue;
+    const std::string& unit = columns[find_column(columns, e.quantity, e.origin)].unit;
+    result.checks.push_back({e, std::nan(""), metric_unit(e.response_metric(), unit)});
+  }
+  result.outcome = supervise(setup.built.initial, {}, [&](Outcome&) {
+    const HarmonicResponse response(setup);
+    for (Check& check : result.checks) {
+      const Expectation& e = check.expectation;
+      check.computed = metric(response, find_column(columns, e.quantity, e.origin), e.response_metric(), e.frequency);
+    }
+  });
+  return result;
+}
+
 CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Observer*>& observers,
                                         const std::atomic<bool>& interrupt) {
   const bool has_quantities = !std::ranges::all_of(setup.scene.expect, &Expectation::is_eigenvalue);
@@ -75,6 +94,7 @@ CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Ob
     result.outcome.last = setup.built.initial;
     return result;
   }
+  if (setup.scene.harmonic) return verify_response(setup);
   return setup.scene.is_static() ? verify_equilibrium(setup, interrupt) : verify_motion(setup, observers, interrupt);
 }
 

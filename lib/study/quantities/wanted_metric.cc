@@ -17,6 +17,13 @@ void check_metric(const WantedMetric& m, const Config& config) {
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), buckling, cost");
   if (m.mode && m.along) config.at("along").fail("selects a mode by itself; remove 'mode' or 'along'");
   check_take(m.take, m.at, m.of, config);
+  if (m.is_of_response()) {
+    if (m.quantity.empty() || m.take != TimeReduction::end || m.at || m.of || m.settled_within)
+      config.fail(
+          "'response' and 'frequency' are for quantities of a harmonic analysis, without take, at, of and "
+          "settled_within");
+    check_response_metric(m.response_metric(), m.frequency, config);
+  }
   if (m.quantity.empty()) m.check_unit("");
   if (m.settled_within && (m.at || m.take != TimeReduction::end))
     config.at("settled_within").fail("replaces 'take' and 'at'; remove them");
@@ -32,6 +39,7 @@ void check_metric(const WantedMetric& m, const Config& config) {
 std::string WantedMetric::unit_of(const std::string& quantity_unit) const {
   if (mode || along) return "Hz";
   if (settled_within) return "s";
+  if (is_of_response()) return metric_unit(response_metric(), quantity_unit);
   if (cost.empty()) return metric_unit(take, quantity_unit);
   for (const auto& field : cost_fields())
     if (field.name == cost) return field.unit;
@@ -56,6 +64,8 @@ const Spec<WantedMetric>& WantedMetric::spec() {
           .key("take", &WantedMetric::take, kTakeSentence)
           .key("at", &WantedMetric::at, "The value at this time, instead of `take`.", {.unit = "s"})
           .key("of", &WantedMetric::of, kOfSentence, {.range = kPositive})
+          .key("response", &WantedMetric::response, kResponseSentence)
+          .key("frequency", &WantedMetric::frequency, kFrequencySentence, {.unit = "Hz", .range = kPositive})
           .key("settled_within", &WantedMetric::settled_within,
                "Instead of `take`: the time after which the quantity stays within this fraction of its range about its "
                "last value. Undefined if this time is in the last tenth of the time span.",

@@ -24,6 +24,8 @@ struct WantedMetric {
   std::string quantity = {};
   TimeReduction take = TimeReduction::end;
   std::optional<double> at = {}, of = {}, settled_within = {};
+  std::optional<ResponseMetric> response = {};  // in a harmonic analysis, instead of `take`
+  std::optional<double> frequency = {};         // of the response, Hz
   std::optional<int> mode = {};
   std::optional<Component> along = {};  // instead of `mode`: the mode with the largest effective mass along this axis
   bool about_equilibrium = false;
@@ -36,6 +38,9 @@ struct WantedMetric {
 
   // True if the metric needs a motion or an equilibrium.
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
+  // True if the metric is of the response in a harmonic analysis.
+  bool is_of_response() const { return response || frequency; }
+  ResponseMetric response_metric() const { return response.value_or(default_response(frequency)); }
   // SI unit of the metric, given that of its quantity; "" for a plain number.
   std::string unit_of(const std::string& quantity_unit) const;
   // Throws ConfigError if `unit` has another dimension.

@@ -11,6 +11,7 @@
 #include "lib/core/units.h"
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/harmonic/response_columns.h"
 #include "lib/study/sweep/formula_scope.h"
 #include "lib/study/sweep/key_unit.h"
 #include "lib/study/sweep/latin_hypercube.h"
@@ -181,6 +182,14 @@ class Expansion {
     assign(config, path, {number_text(angle) + " rad", origin});
   }
 
+  static void check_analysis(const Scene& scene, const WantedMetric& m) {
+    if (!scene.harmonic && m.is_of_response()) m.origin.fail("'response' and 'frequency' need analysis: harmonic");
+    if (scene.harmonic && (m.at || m.take != TimeReduction::end || m.settled_within))
+      m.origin.fail(
+          "a harmonic analysis has no time: instead of take, at and settled_within, use response: amplitude, phase, "
+          "peak or peak_frequency");
+  }
+
   // Checked for every point, because the time span may be varied.
   void check_times(const Scene& scene, const std::string& title) const {
     const bool is_static = scene.is_static();
@@ -191,13 +200,16 @@ class Expansion {
     };
     for (const auto& [name, m] : sweep_.quantities) {
       if (m.quantity.empty()) continue;
+      check_analysis(scene, m);
       if (!is_static) require(m.at, m.origin.where + ".at");
+      else if (scene.harmonic) continue;
       else if (m.at || m.take != TimeReduction::end || m.settled_within || m.quantity == kEnergyBalance)
         m.origin.fail(
             "a static analysis has only values in equilibrium: remove 'take', 'at' and 'settled_within', or choose "
             "another quantity than energy.balance");
     }
     if (!sweep_.frames || !sweep_.frames->at) return;
+    if (scene.harmonic) sweep_.frames->origin.fail("a harmonic analysis has no picture; remove 'frames'");
     if (is_static) sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
     require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
   }
@@ -223,6 +235,11 @@ class Expansion {
   void check_quantities(const Scene& scene, const FemModel& model) const {
     for (const auto& [name, m] : sweep_.quantities) {
       if (m.quantity.empty()) continue;
+      if (scene.harmonic) {
+        const auto columns = response_columns(scene, model);
+        m.check_unit(columns[find_column(columns, m.quantity, m.origin)].unit);
+        continue;
+      }
       const Quantity q = find_quantity(m.quantity, scene, model, m.origin);
       m.check_unit(q.unit);
       if (q.components() > 1 && !(q.is_vector() && m.take == TimeReduction::drift))

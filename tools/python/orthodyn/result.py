@@ -178,6 +178,15 @@ class Result:
         """Energies, J: kinetic, elastic, ... and the balance, which should stay zero."""
         return self.table("energy")
 
+    @property
+    def response(self) -> dict[str, np.ndarray]:
+        """Response in a harmonic analysis: "frequency" (Hz), and the complex amplitude of each quantity
+        ("tip.velocity.z"), whose angle is the phase."""
+        table = self.table("response")
+        phases = {name: np.deg2rad(values) for name, values in table.items() if name.endswith(".phase")}
+        return Columns((name, values * np.exp(1j * phases[name + ".phase"]) if name + ".phase" in phases else values)
+                       for name, values in table.items() if name not in phases)
+
     def to_pandas(self, table: str = "probes") -> pandas.DataFrame:
         """A table as a data frame whose index is the first column."""
         import pandas
@@ -230,7 +239,8 @@ class Result:
         if share is not None:
             return f", mesh error {100 * share:.2g} % of the elastic energy"
         modes = [mode["mesh_error"] for mode in self.record.get("modes") or () if mode.get("mesh_error") is not None]
-        return f", mesh error {100 * modes[0]:+.2g} % of the lowest load factor" if modes else ""
+        value = "frequency" if self.record.get("analysis") == "harmonic" else "load factor"
+        return f", mesh error {100 * modes[0]:+.2g} % of the lowest {value}" if modes else ""
 
     def _is_of_cells(self, name: str) -> bool:
         if name in self._kept.get("cell_fields", ()):

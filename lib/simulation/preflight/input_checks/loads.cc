@@ -15,6 +15,7 @@ namespace {
 
 // Largest absolute value of a time function within the run, sampled between the times where it is not smooth.
 double largest_within(const TimeFunction& factor, const CheckContext& context) {
+  if (factor.is_harmonic()) return factor.peak(context.start(), context.end());
   if (context.is_static()) return std::abs(factor.value(context.end()));
   constexpr std::size_t kSamples = 20'000, kFewestInPiece = 50;  // resolves a pulse of some thousandths of the run
   std::vector<double> times = times_between(factor.kinks(), context.start(), context.end());
@@ -49,7 +50,9 @@ void check_time_functions(const CheckContext& context, Warnings& out) {
     if (acts_within(*factor, context)) return;
     const auto kinks = factor->kinks();
     const auto later = std::find_if(kinks.begin(), kinks.end(), [&](double t) { return t >= context.end(); });
-    if (context.is_static()) {
+    if (factor->is_harmonic()) {
+      warn(out, function.where(), "the amplitude is 0: the load has no effect");
+    } else if (context.is_static()) {
       warn(out, function.where(),
            "the factor is 0 at {:.4g} s (time.end), where statics evaluate it: the load or motion has no effect",
            context.end());

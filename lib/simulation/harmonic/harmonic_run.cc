@@ -1,0 +1,108 @@
+// Harmonic analysis of a scene: writes response.csv, the natural modes in the range as modes.csv and modes.pvd, and
+// the sounds of taps.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <exception>
+#include <numbers>
+#include <optional>
+
+#include "lib/simulation/harmonic/harmonic_response.h"
+#include "lib/simulation/harmonic/tap.h"
+#include "lib/simulation/modes/mode_files.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/model_summary.h"
+#include "lib/simulation/run/run_context.h"
+#include "lib/simulation/run/run_record.h"
+
+namespace orthodyn {
+
+namespace {
+
+HarmonicResult describe(const HarmonicResponse& response, const Setup& setup) {
+  HarmonicResult result{.is_loaded = response.is_loaded(),
+                        .frequencies = response.frequencies().size(),
+                        .lowest = response.frequencies().front(),
+                        .highest = response.frequencies().back(),
+                        .basis = response.basis_size(),
+                        .error = response.error(),
+                        .rtol = setup.scene.harmonic->rtol,
+                        .missed = missed_resonances(response.frequencies(), response.resonances())};
+  const FrequencyErrors errors = response.mesh_errors();
+  result.mesh_warning = frequency_warning(errors, setup.built.model->parts().mesh.order());
+  for (std::size_t k = 0; k < response.modes_in_range(); ++k) {
+    const Resonance& resonance = response.resonances()[k];
+    result.modes.push_back({resonance.frequency, resonance.loss_factor / 2, errors.shares[k]});
+  }
+  for (std::size_t c = 0; c < response.columns().size(); ++c) {
+    const auto [frequency, amplitude] = response.peak(c);
+    result.peaks.push_back({response.columns()[c].name, response.columns()[c].unit, frequency, amplitude});
+  }
+  return result;
+}
+
+// Amplitude, and phase in degrees, of each column.
+void write_response(const std::filesystem::path& path, const HarmonicResponse& response) {
+  std::vector<std::string> header{"frequency [Hz]"};
+  for (const ResponseColumn& column : response.columns()) {
+    header.push_back(fmt::format("{} [{}]", column.name, column.unit.empty() ? "1" : column.unit));
+    header.push_back(column.name + ".phase [deg]");
+  }
+  CsvFile file(path, header);
+  file.begin();
+  for (std::size_t f = 0; f < response.frequencies().size(); ++f) {
+    std::vector<double> row{response.frequencies()[f]};
+    for (const std::complex<double>& x : response.amplitudes().col(static_cast<Eigen::Index>(f))) {
+      row.push_back(std::abs(x));
+      row.push_back(std::arg(x) * 180 / std::numbers::pi);
+    }
+    file.row(row);
+  }
+}
+
+void write_modes(const std::filesystem::path& folder, const HarmonicResponse& response, const FemModel& model,
+                 const HarmonicResult& result) {
+  CsvFile file(folder / "modes.csv", {"mode", "frequency [Hz]", "damping_ratio", "mesh_error"});
+  file.begin();
+  std::vector<Vector> shapes;
+  for (std::size_t k = 0; k < result.modes.size(); ++k) {
+    const auto& [frequency, damping_ratio, mesh_error] = result.modes[k];
+    file.row({static_cast<double>(k + 1), frequency, damping_ratio, mesh_error});
+    shapes.push_back(response.modes().modes[k].shape);
+  }
+  if (!shapes.empty()) write_shapes(folder, model, response.about(), shapes);
+}
+
+}  // namespace
+
+RunResult run_harmonic_analysis(RunContext context) {
+  const Setup& setup = context.setup;
+  std::optional<HarmonicResponse> response;
+  std::exception_ptr input_error;
+  RunResult result{.scene = context.scene, .folder = context.folder.path()};
+  result.harmonic = HarmonicResult{};
+  result.outcome = supervise(setup.built.initial, {}, [&](Outcome&) {
+    try {
+      response.emplace(setup);
+      result.harmonic = describe(*response, setup);
+    } catch (const ConfigError&) {
+      input_error = std::current_exception();
+    }
+  });
+  if (input_error) std::rethrow_exception(input_error);  // an earlier result stays
+  context.folder.prepare();
+  const RunRecord record(result.folder, context.scene, context.set, {}, setup.config);
+  write_file(result.folder / "scene.yaml", {context.resolved});
+  if (result.outcome.status == Outcome::Status::completed) {
+    write_response(result.folder / "response.csv", *response);
+    if (const auto seconds = setup.scene.harmonic->tap_seconds) write_taps(result.folder, *response, *seconds);
+    write_modes(result.folder, *response, *setup.built.model, *result.harmonic);
+  }
+  result.model = summarize(setup);
+  record.finish(result);
+  context.listener.on_result(result);
+  return result;
+}
+
+}  // namespace orthodyn

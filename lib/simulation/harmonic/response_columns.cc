@@ -1,0 +1,106 @@
+#include "lib/simulation/harmonic/response_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/core/spelling.h"
+#include "lib/fem/fem_model.h"
+#include "lib/mesh/selection.h"
+#include "lib/scene/quantity.h"
+
+namespace orthodyn {
+
+namespace {
+
+const std::vector<std::string> kMotions{"displacement", "velocity", "acceleration"};
+const std::vector<std::string> kStresses{"nodal_strain", "nodal_strain_space", "nodal_stress", "nodal_stress_material"};
+const std::vector<std::string> kMotionUnits{"m", "m/s", "m/s^2"};
+
+// Index in kMotions, or -1.
+int motion_index(const std::string& field) {
+  const auto found = std::find(kMotions.begin(), kMotions.end(), field);
+  return found == kMotions.end() ? -1 : static_cast<int>(found - kMotions.begin());
+}
+
+// The model's output for a field: displacement for velocity and acceleration.
+OutputInfo output_of(const FemModel& model, const std::string& field, const SourceLocation& origin) {
+  const std::string name = motion_index(field) >= 0 ? "displacement" : field;
+  const std::string kind = name.substr(name.rfind('.') + 1);  // "REGION.nodal_stress"
+  const auto outputs = model.outputs();
+  const auto found = std::find_if(outputs.begin(), outputs.end(), [&](const auto& info) { return info.name == name; });
+  const bool is_linear =
+      motion_index(field) >= 0 || std::find(kStresses.begin(), kStresses.end(), kind) != kStresses.end();
+  if (found != outputs.end() && is_linear) return *found;
+  std::vector<std::string> known = kMotions;
+  known.insert(known.end(), kStresses.begin(), kStresses.end());
+  origin.fail(found == outputs.end()
+                  ? fmt::format("unknown field '{}'{}; known: {}", field, did_you_mean(field, known), join(known))
+                  : fmt::format("field '{}' has no amplitude in a harmonic analysis, because it is not linear in the "
+                                "displacement; choose from {}",
+                                field, join(known)));
+}
+
+double largest_displacement(const Vector& q) { return q.size() > 0 ? q.lpNorm<Eigen::Infinity>() : 0; }
+
+}  // namespace
+
+std::complex<double> ResponseColumn::amplitude(double frequency, const ComplexVector& coordinates) const {
+  const std::complex<double> rate(0, 2 * std::numbers::pi * frequency);
+  const std::complex<double> relative(of_basis.dot(coordinates.real()), of_basis.dot(coordinates.imag()));
+  return std::pow(rate, time_derivative) * relative + base * std::pow(rate, time_derivative - 2);
+}
+
+std::vector<ResponseColumn> response_columns(const Scene& scene, const FemModel& model) {
+  const Vec3 base = scene.harmonic->base_acceleration.value_or(Vec3::Zero());
+  std::vector<ResponseColumn> columns;
+  for (const auto& [probe, entry] : scene.output.probes)
+    for (const auto& field : entry.fields) {
+      const OutputInfo info = output_of(model, field, entry.origin);
+      const int motion = motion_index(field);
+      if (motion < 0) require_field_at(info.name, nearest_node(model.parts().mesh, entry.at), model, entry.origin);
+      const std::string unit = motion < 0 ? info.unit : kMotionUnits[static_cast<std::size_t>(motion)];
+      for (int c = 0; c < info.components; ++c)
+        columns.push_back({probe,
+                           fmt::format("{}.{}.{}", probe, field, info.component_names[static_cast<std::size_t>(c)]),
+                           unit == "1" ? "" : unit, std::max(motion, 0), motion >= 0, motion < 0 ? 0 : base[c]});
+    }
+  return columns;
+}
+
+std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::string& quantity,
+                        const SourceLocation& origin) {
+  std::vector<std::string> names;
+  for (const ResponseColumn& column : columns) names.push_back(column.name);
+  const auto found = std::find(names.begin(), names.end(), quantity);
+  if (found == names.end())
+    origin.fail(fmt::format("unknown quantity '{}'{}; a harmonic analysis has the components of its probes' fields: {}",
+                            quantity, did_you_mean(quantity, names), join(nearest_names(quantity, names, 5))));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const FemModel& model, const State& about,
+               const Eigen::MatrixXd& basis) {
+  constexpr double kStep = 1e-5;  // displacement of the differences, relative to the body
+  const double size = bounding_box(model.parts().mesh).diagonal();
+  for (ResponseColumn& column : columns) column.of_basis = Vector::Zero(basis.cols());
+  for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+    const double step = kStep * size / largest_displacement(basis.col(k));
+    const State after{about.t, about.q + step * basis.col(k), about.v},
+        before{about.t, about.q - step * basis.col(k), about.v};
+    const ObservedState ahead(model, after), behind(model, before);
+    std::size_t column = 0;
+    for (const auto& [probe, entry] : scene.output.probes)
+      for (const auto& field : entry.fields) {
+        const OutputInfo info = output_of(model, field, entry.origin);
+        const int node = nearest_node(model.parts().mesh, entry.at);
+        const auto high = ahead.evaluate_at(info.name, node, info.components);
+        const auto low = behind.evaluate_at(info.name, node, info.components);
+        for (std::size_t c = 0; c < high.size(); ++c) columns[column++].of_basis[k] = (high[c] - low[c]) / (2 * step);
+      }
+  }
+}
+
+}  // namespace orthodyn
