@@ -33,7 +33,7 @@ class CriticalStep {
   // As at(), but without reserve().
   double at_present(const State& state) { return limit(state, 0); }
 
-  // Upper bound of the eigenvalues (1/s^2) that contact may add to those of K later; 0 if no stiffness can be added.
+  // Upper bound (1/s^2) of the increase of kappa by later contact; 0 if contact cannot add stiffness.
   double reserve() const { return contact_bound_; }
 
   // delta / kappa (s) at the state of the last call, with kappa excluding reserve(). It equals beta if D = beta K, and
@@ -50,8 +50,8 @@ class CriticalStep {
   SpectralBound stiffness_, damping_;
 };
 
-// Throws ConfigError, with the smallest possible number of steps, if an explicit adaptive method cannot reach the end
-// of the run within max_steps. Steps of the method are at most `reach` times the leapfrog's critical step.
+// Throws ConfigError if an explicit adaptive method cannot reach the end of the run within max_steps; the message gives
+// the smallest possible number of steps. Steps of the method are at most `reach` times the leapfrog's critical step.
 void refuse_too_many_steps(const std::string& name, const Model& model, const Task& task, double reach, long max_steps);
 
 }  // namespace orthodyn

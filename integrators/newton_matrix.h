@@ -2,7 +2,8 @@
 // form w_m = 1, w_d is in s and w_k in s^2.
 //
 // If A of a nonlinear model is found indefinite, the next ten calls of linearize() compute only the positive
-// semidefinite Gauss-Newton part of K; factor() also computes it at once. Not thread-safe: one object per integrator.
+// semidefinite Gauss-Newton part of K. If factor() finds A indefinite, it also replaces the present K by this part and
+// factors A again. Not thread-safe: one object per integrator.
 #pragma once
 
 #include <memory>
@@ -37,12 +38,13 @@ class NewtonMatrix {
   bool is_iterative() const { return solver_->is_iterative(); }
   // Sets the tolerance of the next solves of an iterative solver; 1e-10 by default.
   void set_tolerance(const SolveTolerance& tolerance) { solver_->set_tolerance(tolerance); }
-  // Smallest ratio of successive Newton corrections to rely on after set_newton_tolerance(); 0 with a direct solver.
+  // Smallest ratio of successive Newton corrections that is reliable after set_newton_tolerance(), which makes solves
+  // inexact; 0 with a direct solver.
   double least_rate() const { return is_iterative() ? kNewtonForcing : 0; }
   // Sets the tolerance for corrections of Newton's method: a relative error of 1e-2 (forcing term) or an absolute error
   // of `absolute`, whichever is larger. The next correction removes that error (Dembo, Eisenstat & Steihaug, SIAM J.
-  // Numer. Anal. 19, 1982). A direct solver may then use single precision, except for linear models, whose first
-  // correction is the solution, and free bodies, whose linear momentum is kept to round-off.
+  // Numer. Anal. 19, 1982). A direct solver may then use single precision. Two kinds of models are excepted: linear
+  // ones, whose first correction is the solution, and free bodies, whose linear momentum is kept to round-off.
   void set_newton_tolerance(double absolute) {
     if (is_iterative() || !needs_exact_solutions_) set_tolerance({kNewtonForcing, absolute});
   }

@@ -26,7 +26,7 @@ class RemainingError {
   // Records the ratio of two successive corrections, in [0, 1).
   void note(double ratio) { factor_ = ratio / (1 - ratio); }
 
-  // The error that remains after a correction of this size, at least `least` times as large.
+  // The error that remains after a correction of norm `size`; at least `least` times `size`.
   double after(double size, double least) const { return std::max(factor_, least) * size; }
 
  private:

@@ -15,7 +15,7 @@ namespace orthodyn {
 
 struct CostEstimate {
   double damping_ratio = 0;   // of the motion; 0 unless every region has stiffness-proportional damping
-  double explicit_steps = 0;  // steps of central differences at the critical step; infinite if it is unknown
+  double explicit_steps = 0;  // steps of central differences at the critical step; infinite if that step is unknown
   double phase = 0;           // estimated phase of the motion over the time span, rad
   double known_phase = 0;     // phase from a known frequency of the motion, rad; 0 if unknown
   double solve_cost = 0, factor_cost = 0;  // of one solve and of one factorisation of an implicit method
@@ -42,8 +42,8 @@ struct MethodChoice {
 MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_explicit_steps);
 
 // The largest share s <= 0.9 of the critical step h_c at which central differences are as accurate as other methods at
-// this rtol. The phase error at the end limits s by phi (s omega h_c)^2 / 24 <= 10 rtol, the energy error of the
-// fastest vibrations by s^2 <= 100 rtol. Here phi = max(phase, known_phase), and omega h_c = phi / explicit_steps.
+// this rtol. Two errors limit s: the phase error at the end, phi (s omega h_c)^2 / 24 <= 10 rtol, and the energy error
+// of the fastest vibrations, s^2 <= 100 rtol. Here phi = max(phase, known_phase), and omega h_c = phi / explicit_steps.
 double safety_of_central_differences(const CostEstimate& cost, double rtol);
 
 }  // namespace orthodyn

@@ -13,7 +13,7 @@ bool allows_modes(const Model& model);
 // the displacement and 10 rtol of the velocity. Returns nothing if
 //   allows_modes() is false, the force is not f(t, 0, 0) - K q - D v, or the linear solver is iterative;
 //   the modes cannot be used (damping couples them, or the model is unstable at rest), or a trial run fails;
-//   a model of n > 100 unknowns needs more than 640, n / 5 or 2e7 / n modes;
+//   a model of n > 100 unknowns needs more than min(640, n / 5, 2e7 / n) modes;
 //   computing the modes, the trials and the run would cost more than half of `other.cost`.
 // Precondition: `other` is the best time-stepping method, with its estimated cost.
 std::optional<MethodChoice> plan_modal(const Model& model, const Task& task, const CostEstimate& cost,

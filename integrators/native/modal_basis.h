@@ -35,9 +35,9 @@ class ModalBasis {
   const Vector& damping() const { return damping_; }  // 1/s, modal damping d
   Eigen::Index size() const { return lambda_.size(); }
 
-  // Damping of the first mode left out, 0 if unknown; meaningless if is_complete(), that is, if all modes are kept.
+  // Damping (1/s) of the first mode left out; 0 if unknown. Has no meaning if is_complete().
   double next_damping() const { return next_damping_; }
-  bool is_complete() const { return complete_; }
+  bool is_complete() const { return complete_; }  // true if no mode is left out
 
   const Eigen::MatrixXd& shapes() const { return shapes_; }
   Vector coordinates(const Vector& q) const;  // Phi^T M q

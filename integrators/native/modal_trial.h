@@ -17,7 +17,7 @@ struct ModalTrial {
 // Runs `task` with the `modes` lowest modes and without outputs. Returns nothing if the run takes more than
 // `most_steps` steps. Returns shares of 1 if the modes do not contain the motion that the initial state and loads
 // cause. Precondition: the model is linear and symmetric, on one process. Throws ConfigError if the modes cannot be
-// used, and RunError or RecoverableError if a run would.
+// used. Throws RunError or RecoverableError for the same reasons as a run with `modal`.
 std::optional<ModalTrial> try_modal(const Model& model, const Task& task, const ErrorControl& control, int modes,
                                     long most_steps);
 

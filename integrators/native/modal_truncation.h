@@ -14,8 +14,8 @@
 //   The lag of the response, |S (M u'' + D u')|: the leading term of the error if the load varies slowly. It is counted
 //   in displacements only.
 //
-// The lag is no bound of the error if the load varies as fast as a mode left out (resonance); in that mode the lag is
-// then at least |u|.
+// The lag is not a bound on the error if the load varies as fast as a mode left out (resonance); in that mode the lag
+// is then at least |u|.
 #pragma once
 
 #include "integrators/native/modal_load.h"
@@ -33,8 +33,8 @@ class ModalTruncation {
   // Records one step.
   void step(const ModalState& begin, const ModalState& end, const StepLoad& load);
 
-  // Records the amplitudes that the whole motion would have after `state` if the load kept its value at `theta`, a
-  // fraction of the step.
+  // Records the amplitudes of the whole motion after `state` under a constant load: the load at the fraction `theta` of
+  // the step.
   void record_motion(const ModalState& state, const StepLoad& load, double theta);
 
   // Largest amplitude left out / largest amplitude of the motion; 0 if nothing has moved.

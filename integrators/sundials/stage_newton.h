@@ -1,4 +1,5 @@
-// Newton's iteration for the implicit stages of ARKODE, with its own convergence test (remaining_error.h).
+// Newton's iteration for the implicit stages of ARKODE. A test by the remaining error (remaining_error.h) replaces
+// ARKODE's convergence test.
 //
 // The stages of a step share the matrix and gamma, so their corrections shrink at the same rate. ARKODE's test either
 // requires the last correction itself to be below the tolerance, which takes one or two iterations too many, or uses
@@ -16,10 +17,10 @@ namespace orthodyn::sundials {
 
 class StageNewton {
  public:
-  // The convergence rate of earlier stages is used while these values are unchanged, gamma (s) to round-off.
+  // The convergence rate of earlier stages is used until one of these values changes.
   struct Conditions {
     long factorizations = 0;  // number so far
-    double gamma = 0;
+    double gamma = 0;         // s; a difference by round-off is no change
   };
 
   // `rtol`: relative tolerance of the error weights. `least_rate`: NewtonMatrix::least_rate().
