@@ -11,8 +11,8 @@
 
 namespace orthodyn {
 
-// Offsets of the off-diagonal blocks of an element in a symmetric pattern. A general pattern needs twice as many
-// offsets; these are searched at each use.
+// Offsets of the off-diagonal blocks of an element in a symmetric pattern. A general pattern has twice as many; its
+// offsets are not stored here but looked up in the pattern at each use.
 template <int kNodes>
 class ElementOffsets {
  public:
@@ -99,7 +99,7 @@ class ElementAssembly {
   std::size_t bytes() const { return offsets_.capacity() * sizeof(Offsets); }
 
   // Adds the matrix of element k; form_at(p) is the tangent form at its point p. add_more(blocks) may add to the blocks
-  // of nodes 1, 2, ...
+  // of nodes 1, 2, ...; this function then computes those of node 0 from them.
   template <class FormAt, class AddMore>
   void add_element(int k, double* values, FormAt&& form_at, AddMore&& add_more) const {
     ElementBlocks<E::kNodes> blocks;
@@ -110,7 +110,8 @@ class ElementAssembly {
     add_blocks(k, blocks, values);
   }
 
-  // Adds the matrices of a batch. `blocks` gives the blocks of nodes 1, 2, ...; this function sets those of node 0.
+  // Adds the matrices of a batch. `blocks` gives the blocks of nodes 1, 2, ...; this function computes those of node 0
+  // from them.
   void add_batch(int b, ElementBlocks<E::kNodes, Batch>& blocks, double* values) const {
     complete<E::kNodes>(symmetric(), blocks);
     for (int l = 0; l < elements_.lanes(b); ++l) {

@@ -4,7 +4,7 @@
 // linear systems with A = w_m M + w_d D + w_k K and its own three weights.
 //
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
-// entries; a matrix is stored as its values on pattern(), one per row index.
+// entries. A matrix is stored as one value per entry of pattern().row.
 //
 // A model may be distributed over several MPI ranks. Each vector then holds the n unknowns of this rank; pattern() also
 // has unknowns of other ranks, numbered after these. Functions are collective: all ranks call them in the same order,
@@ -33,14 +33,14 @@ namespace orthodyn {
 struct Traits {
   bool linear = false;          // K and D are constant: they depend neither on t nor on q or v
   bool damped = false;          // stiffness-proportional damping everywhere, so fast vibrations decay fastest
-  bool damping_matrix = false;  // D is more than a multiple of M
+  bool damping_matrix = false;  // D is not just a multiple of M
   bool lumped_mass = true;      // M is diagonal
   bool time_dependent = false;  // f depends on t
   bool conservative = true;     // total energy is constant when nothing is damped
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
   bool smooth = true;           // f has no kinks in q: there is no contact
-  bool free = false;            // nothing holds a point: linear momentum changes by loads alone
+  bool free = false;            // no point is held: only loads change the linear momentum
   bool exact_stiffness = true;  // K is -df/dq or its symmetric part, not an approximation
 };
 
@@ -51,7 +51,7 @@ struct Weights {
 
 // K and D at one state, from Model::linearize(). `damping` is empty when D is a multiple of M.
 //
-// An object may be passed to linearize() again for another state or model, because it records whose constant matrices
+// An object may be passed to linearize() again for another state or model: it records the model whose constant K and D
 // it holds. Precondition: the values are not changed in between.
 struct Linearization {
   std::vector<double> stiffness, damping;
@@ -94,17 +94,19 @@ class Model : public OutputSource {
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;
 
-  // Computes K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if
-  // traits().linear holds and `out` already has this model's K and D. Throws RecoverableError as force() does; `out`
+  // Computes K and D at a state. `kind`: the exact K, or its positive semidefinite Gauss-Newton part. Computes nothing
+  // if traits().linear holds and `out` already has this model's K and D. Throws RecoverableError as force() does; `out`
   // may be passed again afterwards.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                  Linearization& out) const;
 
-  // Computes K at q with predicted stresses: those that K at q_before predicts for q, instead of the stresses at q.
-  // This is the matrix of Newton's method with independent stress unknowns. A straight step stretches a body that
-  // bends. With predicted stresses K stays definite, and Newton's method converges, for far longer steps than with the
-  // exact K. The default implementation returns the exact K, which is also the result for equal states. `out`
-  // has no damping. Throws as linearize() does.
+  // Computes K at q with predicted stresses instead of the stresses at q: those at q_before plus their linear change
+  // with q - q_before. This is the matrix of Newton's method with independent stress unknowns.
+  //
+  // The nodes of a bending body move on arcs, so a straight step stretches the body. Predicted stresses exclude the
+  // stress of this stretch: K stays definite, and Newton's method converges, for far longer steps than with the exact
+  // K. For q_before = q the result is the exact K. The default implementation always returns the exact K. `out` has no
+  // damping. Throws as linearize() does.
   void linearize_predicted(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                            Linearization& out) const;
 
@@ -122,7 +124,8 @@ class Model : public OutputSource {
   // Replaces x by M^-1 x. Throws RunError if M is not positive definite.
   virtual void solve_mass(VectorRef x) const = 0;
 
-  // Rigid motions about q, which K resists least: n x 6 displacements of any size. Empty if the model has none.
+  // Rigid motions about q, as n x 6 displacements of arbitrary scale. K resists them least. Empty if the model has
+  // none.
   virtual Eigen::MatrixXd rigid_motions(const ConstVectorRef& /*q*/) const { return {}; }
 
   // Upper bound of the largest angular frequency about rest, rad/s; 0 if unknown.

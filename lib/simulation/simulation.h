@@ -3,8 +3,9 @@
 //   auto simulation = orthodyn::Simulation::from_file("scene.yaml", {.set = {"integrator.rtol=1e-5"}});
 //   const orthodyn::RunResult result = simulation.run({.folder = "out/scene"});
 //
-// writes the outputs of the scene (frames, energies, probes, ...), scene.yaml and run.json into the folder. Nothing is
-// printed: see RunListener. A Simulation is for one thread; several may run in parallel in different folders.
+// The run writes the outputs of the scene (frames, energies, probes, ...), scene.yaml and run.json into the folder. It
+// prints nothing; a RunListener receives its messages. A Simulation is for one thread; several may run in parallel in
+// different folders.
 #pragma once
 
 #include <atomic>
@@ -23,14 +24,14 @@ class Simulation {
   // Throws ConfigError for an unreadable file, a file that is not a scene, and a change that does not apply.
   static Simulation from_file(const std::string& file, const SceneChanges& changes = {});
 
-  // A scene given as text. `name` stands for its file in messages and resolves relative paths.
+  // A scene given as text. `name` is its file name in messages; relative paths start at the folder of `name`.
   static Simulation from_text(const std::string& text, const std::string& name, const SceneChanges& changes = {});
 
   // The scene with the changes applied, not yet validated.
   const Config& scene() const { return scene_; }
 
-  // Validates and builds the scene, and runs it. A failed computation is a result: see its outcome. Throws ConfigError
-  // for an invalid scene or folder before anything is written, RunError if a file cannot be written.
+  // Validates and builds the scene, and runs it. A failed computation does not throw: see RunResult::outcome. Throws
+  // ConfigError for an invalid scene or folder before anything is written, RunError if a file cannot be written.
   RunResult run(const RunRequest& request) const;
 
   // Stops soon after `interrupt` becomes true; the run can then be resumed.

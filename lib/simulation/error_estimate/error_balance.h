@@ -11,7 +11,7 @@ namespace orthodyn {
 
 struct ErrorBalance {
   double mesh = 0;                  // MeshError::relative
-  std::string mesh_by;              // "finer elements, 0.2 s of CPU"
+  std::string mesh_by;              // source of the mesh error: "finer elements, 0.2 s of CPU"
   std::optional<double> time;       // relative error of the integration, if estimated
   std::vector<ProbedError> probed;  // MeshError::probed
   bool probed_unknown = false;      // MeshError::probed_unknown

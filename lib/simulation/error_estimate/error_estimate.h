@@ -22,13 +22,13 @@ struct ErrorEstimate {
   bool completed = false;
   std::string failure_reason;         // of the second run; "" if it completed
   std::string against;                // setting of the second run: "integrator.rtol=1e-05"
-  ErrorNorms displacement, velocity;  // in the mass norm, relative to the largest; NaN if nothing moves
+  ErrorNorms displacement, velocity;  // in the mass norm, relative to the largest norm over time; NaN if nothing moves
   int samples = 0;                    // times compared, including the initial one
   double wall_seconds = 0;
 };
 
-// Number of states to record of each run, so that those of both runs fit into `bytes`: at least 2, and at most 200,
-// which suffice.
+// Number of states to record per run, so that the states of both runs fit into `bytes`. At least 2, even if they do not
+// fit; at most 200, which is enough.
 std::size_t samples_within(double bytes, std::size_t unknowns);
 
 class ErrorEstimator {

@@ -13,8 +13,9 @@ namespace orthodyn {
 // True if a region has the mixed formulation.
 bool is_mixed(const FemModel& model);
 
-// Whether finer elements have the energy of the coarse ones at the same displacement. Mixed elements have not, since a
-// displacement that they take over changes their volume, nor have 20-node hexahedra with 8 integration points.
+// True if the finer elements have the same energy as the coarse ones at an interpolated coarse displacement. False for
+// mixed elements, because such a displacement changes the volume of the finer elements, and for 20-node hexahedra with
+// 8 integration points.
 bool is_nested(const FemModel& model);
 
 class FinerModel {

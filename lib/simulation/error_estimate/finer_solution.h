@@ -30,8 +30,8 @@ struct StateError {
 // Estimates the error of a state as the displacement by which the finer elements respond to their residual force. For a
 // linear model in equilibrium this is the difference of the two solutions, else the first Newton step towards the finer
 // solution. `in_motion`: true if the forces accelerate the body, false in an equilibrium. Throws RunError if the
-// stiffness is unsymmetric or cannot be factorised or memory is insufficient, RecoverableError if the finer elements
-// cannot be evaluated or their stiffness is not positive definite.
+// stiffness is unsymmetric, if it cannot be factorised, or if memory is insufficient. Throws RecoverableError if the
+// finer elements cannot be evaluated, or if their stiffness is not positive definite.
 StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
                        const NodesByField& fields = {});
 

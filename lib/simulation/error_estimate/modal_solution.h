@@ -11,9 +11,9 @@ namespace orthodyn {
 
 class ModalSolution {
  public:
-  // Empty if the model is not linear, has time-dependent loads, an unsymmetric tangent, damping that couples modes or
-  // more than 2,000 unknowns (the eigenproblem is dense). Also empty if the frequency of an elastic mode is at most
-  // 1e-4 of the highest frequency, because round-off then makes it inaccurate.
+  // Empty if the model is nonlinear, or if it has time-dependent loads, an unsymmetric tangent, damping that couples
+  // modes, or more than 2,000 unknowns (the eigenproblem is dense). Also empty if the frequency of an elastic mode is
+  // at most 1e-4 of the highest frequency: round-off would make such a low frequency inaccurate.
   static std::optional<ModalSolution> find(const Model& model, const State& initial);
 
   State at(double t) const;

@@ -1,4 +1,4 @@
-// Reads a scene file and applies the changes of the command line. Neither validates nor builds it (see setup.h).
+// Reads a scene file and applies the changes of the command line. The scene is not validated or built (see setup.h).
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ void refuse_other_kinds(const Config& config, InputFile wanted);
 
 struct SceneChanges {
   std::vector<std::string> set = {};  // "path=value", the value in YAML
-  // Replaces integrator.type; keys of the section that the new integrator lacks are dropped. `set` is applied
-  // afterwards.
+  // Replaces integrator.type. Keys of the section `integrator` that the new integrator does not have are dropped. `set`
+  // is applied afterwards.
   std::optional<std::string> integrator = std::nullopt;
 };
 
