@@ -23,7 +23,7 @@ struct PointScene {
   std::vector<std::string> files;  // that the scene uses
 };
 
-// Precondition: `scene` is a resolving() Config that read_scene() has read.
+// Precondition: `scene` is from Config::resolving(), and read_scene() has filled in its defaults.
 PointScene point_scene(const Config& scene, const std::string& title);
 
 class PointJobs {

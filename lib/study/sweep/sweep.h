@@ -31,7 +31,7 @@ struct FrameSpec {
   std::string up = "z";
   double enlarged = 1;  // scale factor of the deformation
   int most = 24;        // largest number of pictures
-  bool ghost = true;
+  bool ghost = true;    // draw the outline of the rest shape
   SourceLocation origin;
   static const Spec<FrameSpec>& spec();
 };
