@@ -1,4 +1,5 @@
 // Mesh files and generators in a scene, and materials of mesh files.
+#include <fmt/format.h>
 #include <stdlib.h>  // mkdtemp
 
 #include <cstdlib>
@@ -142,6 +143,40 @@ TEST(RoundScene, WhatMakesNoMeshIsRefusedWithItsKey) {
             std::string::npos);
   EXPECT_NE(refusal(replaced(cylinder, "[1, 0, 0]", "[0, 0, 0]")).find("mesh.axis: is zero"), std::string::npos);
   EXPECT_GT(build_text(cylinder).model->num_dofs(), 0);
+}
+
+// Thin tubes, discs and washers have hexahedra, other round bodies tetrahedra.
+TEST(RoundScene, FlatCellsAreHexahedraByDefault) {
+  const auto has_tetrahedra = [](const std::string& mesh) {
+    return build_text("mesh: {" + mesh +
+                      "}\nmaterials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}\ntime: {end: 1}\n")
+        .model->parts()
+        .mesh.has_tets_only();
+  };
+  for (const char* flat : {"type: cylinder, radius: 0.2, length: 0.004, cells: [16, 2, 1]",
+                           "type: tube, radius: 0.2, inner_radius: 0.04, length: 0.004, cells: [16, 4, 1]",
+                           "type: tube, radius: 0.2, inner_radius: 0.198, length: 0.5, cells: [16, 1, 8]"})
+    EXPECT_FALSE(has_tetrahedra(flat)) << flat;
+  for (const char* other : {"type: cylinder, radius: 0.2, length: 4, cells: [16, 2, 10]",
+                            "type: cylinder, radius: 0.2, length: 0.4, cells: [16, 2, 8]",
+                            "type: tube, radius: 0.2, inner_radius: 0.1, length: 2, cells: [16, 2, 10]",
+                            "type: cylinder, radius: 0.2, length: 0.004, cells: [16, 2, 1], order: 1",
+                            "type: cylinder, radius: 0.2, length: 0.004, cells: [16, 2, 1], elements: tetrahedra"})
+    EXPECT_TRUE(has_tetrahedra(other)) << other;
+}
+
+TEST(MeshFile, OfHexahedraMayGetNodesInTheirCentres) {
+  const auto scene = [](const std::string& more) {
+    return fmt::format(
+        "mesh: {{type: file, file: {}/tests/mesh/data/tube_hexahedra_41.msh{}}}\n"
+        "materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}\nregions: {{all: {{material: m}}}}\n"
+        "time: {{end: 1}}\n",
+        ORTHODYN_SOURCE_DIR, more);
+  };
+  EXPECT_EQ(build_text(scene(", order: 2, centres: true")).model->parts().mesh.cells.shape(0), CellShape::hex27);
+  EXPECT_EQ(build_text(scene(", order: 2")).model->parts().mesh.cells.shape(0), CellShape::hex20);
+  EXPECT_NE(refusal(scene(", order: 2, split: true, centres: true")).find("tetrahedra only"), std::string::npos);
+  EXPECT_NE(refusal(scene(", order: 1, centres: true")).find("the elements are linear"), std::string::npos);
 }
 
 }  // namespace

@@ -79,6 +79,20 @@ TEST(InputChecks, ANearlyIncompressibleMaterialIsNotForLinearTetrahedra) {
     EXPECT_THAT(block(other), Not(HasSubstr("locking"))) << other;
 }
 
+TEST(InputChecks, ANearlyIncompressibleMaterialNeedsTheMixedFormulation) {
+  const auto block = [](const std::string& region, const std::string& more = "") {
+    return findings_of(
+               "mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], elements: hexahedra_27}\n"
+               "materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.4999}}\n"
+               "regions: {body: {material: m" +
+               region + "}}\nclamps: [{surface: z0}]\ngravity: [0, 0, -9.81]\nanalysis: static\n" + more)
+        .words;
+  };
+  EXPECT_THAT(block(""), Not(HasSubstr("nearly incompressible")));
+  EXPECT_THAT(block(", formulation: displacement"), HasSubstr("remove formulation: displacement"));
+  EXPECT_THAT(block("", "elasticity: {corotation: warped}\n"), HasSubstr("remove elasticity.corotation: warped"));
+}
+
 // With linear kinematics a rotated body grows by 1/cos of the angle.
 TEST(InputChecks, AFreeBodyThatTurnsIsNotForLinearKinematics) {
   const auto spun = [](double spin, const std::string& kinematics) {

@@ -18,6 +18,8 @@ void AbaqusElementReader::read(const AbaqusKeyword& keyword) {
           "elements of type {} are read as C3D8, with full integration: linear ones are too stiff in bending; "
           "`order: 2` makes them quadratic",
           type);
+    if (type.starts_with("C3D27R"))
+      file_.draft.warn(lines_.place(), "elements of type {} are read as C3D27, with full integration", type);
     while (!lines_.at_keyword()) read_element(*shape, type, set);
   } else if (type.empty() || type.find("3D") != std::string::npos) {
     // Names of trusses, rigid elements, membranes and connectors in space contain 3D, too.

@@ -11,6 +11,7 @@
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/refine.h"
 #include "lib/mesh/sources/source_keys.h"
 
@@ -35,12 +36,16 @@ void require_file(const FilePath& file) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
 }
 
+constexpr const char* kCentresSentence =
+    "true: quadratic hexahedra and wedges also have nodes in the middle of quadrilaterals and of hexahedra: 27 instead "
+    "of 20 nodes, 18 instead of 15.";
+
 // Options of all mesh files.
 struct FileOptions {
   FilePath file;
   double scale = 1;
   std::optional<int> order;
-  bool split = false;
+  bool split = false, centres = false;
   int refinements = 0;
 
   FileCells cells() const { return split ? FileCells::split : FileCells::keep; }
@@ -55,6 +60,13 @@ struct FileOptions {
                       "add corners to the set",
                       file.path, name));
     if (order && !loaded.mesh.has_tets_only()) validate(loaded.mesh, {file.path});  // its order may have changed
+    if (centres) {
+      if (loaded.mesh.order() == 1)
+        throw ConfigError(file.where, "centres: the elements are linear; set order: 2 as well");
+      if (loaded.mesh.has_tets_only())
+        throw ConfigError(file.where, "centres: the mesh has tetrahedra only, which have no such nodes; remove it");
+      add_centres(loaded.mesh);
+    }
     for (int i = 0; i < refinements; ++i) refine(loaded);
     return loaded;
   }
@@ -72,6 +84,7 @@ class FileSource : public MeshSource, public FileOptions {
                  "mm_t_s (mm, t, s; moduli in MPa, densities in t/mm^3).")
             .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
             .key("split", &FileSource::split, kSplitSentence)
+            .key("centres", &FileSource::centres, kCentresSentence)
             .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule)
             .check([](const FileSource& source, const Config& config) {
               if (source.units_ != FileUnits::si && source.scale != 1)
@@ -101,6 +114,7 @@ class GmshSource : public MeshSource, public FileOptions {
                               .key("scale", &GmshSource::scale, kScale, {.range = kPositive})
                               .key("order", &GmshSource::order, kFileOrderSentence, kOrderRule)
                               .key("split", &GmshSource::split, kSplitSentence)
+                              .key("centres", &GmshSource::centres, kCentresSentence)
                               .key("refine", &GmshSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }

@@ -1,7 +1,9 @@
 // The mesh sources `cylinder` and `tube`.
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
+#include <type_traits>
 
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/mesh_source.h"
@@ -33,8 +35,8 @@ class RoundSource : public MeshSource, public Round {
   Round mesh() const {
     Round mesh = *this;
     mesh.cells = {.around = counts[0], .through = counts[1], .along = counts[2], .grading = grading};
-    mesh.elements = elements_.value_or(this->order == 2 && flatness(*this) > kPlate ? RoundMesh::Elements::hexahedra
-                                                                                    : RoundMesh::Elements::tetrahedra);
+    mesh.elements = elements_.value_or(this->order == 2 && flatness() > kPlate ? RoundMesh::Elements::hexahedra
+                                                                               : RoundMesh::Elements::tetrahedra);
     return mesh;
   }
 
@@ -47,8 +49,9 @@ class RoundSource : public MeshSource, public Round {
         .key("grading", &S::grading, "Thickness of the outermost ring divided by that of the innermost.",
              {.range = kGrading})
         .key("elements", &S::elements_,
-             "tetrahedra, or hexahedra of 20 nodes (8 with `order: 1`). Default: hexahedra for a tube whose cells are "
-             "more than four times wider than their mean thickness, unless `order: 1` is given; otherwise tetrahedra.")
+             "tetrahedra, or hexahedra of 20 nodes (8 with `order: 1`). Default: hexahedra if the cells are more than "
+             "four times wider than thick, as in thin tubes, discs and washers, unless `order: 1` is given; otherwise "
+             "tetrahedra.")
         .key("order", &S::order, kOrderSentence, kOrderRule)
         .key("origin", &S::origin, "Centre of end0.", {.unit = "m"})
         .key("axis", &S::axis, "Direction from end0 to end1, of any length.")
@@ -63,12 +66,16 @@ class RoundSource : public MeshSource, public Round {
   }
 
  private:
-  // Smaller width of the cells of a tube over their mean thickness; 0 for a cylinder.
-  static double flatness(const RoundSource<TubeMesh>& tube) {
-    const double thickness = (tube.radius - tube.inner_radius) / tube.counts[1];
-    return std::min(2 * std::numbers::pi * tube.radius / tube.counts[0], tube.length / tube.counts[2]) / thickness;
+  // The second smallest edge of the cells over the smallest, by their mean sizes.
+  double flatness() const {
+    std::array edges{2 * std::numbers::pi * this->radius / counts[0], radial_size(), this->length / counts[2]};
+    std::sort(edges.begin(), edges.end());
+    return edges[1] / edges[0];
   }
-  static double flatness(const RoundSource<CylinderMesh>&) { return 0; }
+  double radial_size() const {
+    if constexpr (std::is_same_v<Round, TubeMesh>) return (this->radius - this->inner_radius) / counts[1];
+    else return this->radius / (counts[1] + counts[0] / 8.0);  // rings, and half of the core's cells
+  }
 
   static constexpr double kPlate = 4;
   std::optional<RoundMesh::Elements> elements_;

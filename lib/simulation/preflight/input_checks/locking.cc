@@ -1,4 +1,5 @@
-// Nearly incompressible materials in elements without the mixed formulation: linear tetrahedra, which lock.
+// Nearly incompressible materials without the mixed formulation: linear tetrahedra lock, and stresses of other elements
+// are wrong.
 
 #include <set>
 #include <string>
@@ -12,13 +13,23 @@ void check_locking(const CheckContext& context, Warnings& out) {
   std::set<std::string> told;
   for (const auto& term : context.built.model->parts().elastic) {
     const ElasticRegion& region = term->definition();
-    if (term->type().has_mixed_formulation() || !is_nearly_incompressible(region.stiffness)) continue;
+    if (region.mixed || !is_nearly_incompressible(region.stiffness)) continue;
     if (!told.insert(region.mesh_region).second) continue;
-    warn(out, context.config.at("regions").where(),
-         "region '{}': its material is {:.0f} times as stiff against a change of volume as in shear (nearly "
-         "incompressible), and {} are then far too stiff (locking): deflections may be many times too small. Use "
-         "mesh.order: 2, which has a mixed formulation for such materials",
-         region.mesh_region, stiffness_contrast(term->stiffness()).ratio, topology(term->type().shape()).plural);
+    const std::string material = fmt::format(
+        "region '{}': its material is {:.0f} times as stiff against a change of volume as in shear (nearly "
+        "incompressible)",
+        region.mesh_region, stiffness_contrast(term->stiffness()).ratio);
+    const std::string place = context.config.at("regions").where();
+    if (!term->type().has_mixed_formulation())
+      warn(out, place,
+           "{}, and {} are then far too stiff (locking): deflections may be many times too small. Use mesh.order: 2, "
+           "which has a mixed formulation for such materials",
+           material, topology(term->type().shape()).plural);
+    else
+      warn(out, place,
+           "{}, and stresses are then wrong, by up to several times their size, without the mixed formulation: remove "
+           "{}",
+           material, region.options.is_warped() ? "elasticity.corotation: warped" : "formulation: displacement");
   }
 }
 
