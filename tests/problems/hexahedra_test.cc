@@ -102,6 +102,43 @@ TEST_P(Solid, PassesThePatchTestOfALinearDisplacement) {
   for (std::size_t k = 6; k < stress.size(); ++k) EXPECT_NEAR(stress[k], stress[k % 6], 1e-12);
 }
 
+// Wedges below z = 1, and on their triangles there tetrahedra up to one node.
+Mesh wedges_and_tetrahedra(bool is_linear) {
+  Mesh mesh = make_box({.size = Vec3::Ones(), .cells = {3, 3, 2}, .elements = BoxMesh::Elements::wedges});
+  const auto apex = static_cast<int>(mesh.nodes.size());
+  mesh.nodes.emplace_back(0.5, 0.5, 1.6);
+  const auto wedges = mesh.cells.size();
+  for (std::size_t c = 0; c < wedges; ++c) {
+    const auto n = mesh.cells[c];
+    if (mesh.nodes[static_cast<std::size_t>(n[3])][2] < 1 - 1e-9) continue;
+    mesh.cells.add(CellShape::tet4, std::array{n[3], n[4], n[5], apex});
+  }
+  mesh.region_of.assign(mesh.cells.size(), 0);
+  mesh.surfaces.clear();
+  if (!is_linear) make_quadratic(mesh);
+  validate(mesh, {"wedges and tetrahedra"});
+  return mesh;
+}
+
+TEST(WedgesAndTetrahedra, PassThePatchTestOfALinearDisplacement) {
+  Random random(612);
+  const Mat3 A = random.matrix();
+  for (const bool is_linear : {true, false}) {
+    const BuiltTestScene s = scene_of(wedges_and_tetrahedra(is_linear), "elasticity: {kinematics: linear}");
+    const Vector q = s.dofs([&](const Vec3& x) { return Vec3(A * x); });
+    const NodalVector f = s.nodal(s.force(q));
+    int on_the_interface = 0;
+    for (Eigen::Index n = 0; n < f.cols(); ++n) {
+      const Vec3 x = s.model().parts().rest->col(n);
+      const bool is_within = (x.head<2>().array() > 1e-9).all() && (x.head<2>().array() < 1 - 1e-9).all();
+      if (!is_within || std::abs(x[2] - 1) > 1e-9) continue;
+      ++on_the_interface;
+      EXPECT_LE(f.col(n).norm(), 1e-13);
+    }
+    EXPECT_GE(on_the_interface, 4);
+  }
+}
+
 // Displacement with the strain z e. The stress z C e is in equilibrium if C e has no component along z.
 Vec3 bent(const Vec3& x, const Mat3& e) { return x[2] * (e * x) - 0.5 * x.dot(e * x) * Vec3::UnitZ(); }
 
