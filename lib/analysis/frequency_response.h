@@ -6,9 +6,10 @@
 // ratio adds 2 zeta omega_k to the damping of each mode.
 //
 // The equation is projected onto a small real basis, with all its damping. The basis has the natural modes up to 1.5
-// times the highest frequency and the static response to F. As long as the estimated error at a check frequency is
-// above the tolerance, the response to the residual there is added. The estimate is the energy norm of that response,
-// relative to the energy norm of x.
+// times the highest frequency and the static response to F, for a free body without the part that moves it rigidly. As
+// long as the estimated error at a check frequency is above the tolerance, the response to the residual there is added.
+// The estimate is the elastic energy norm of that response, relative to that of x. It does not contain the coupling of
+// this response with the modes by damping.
 //
 // Sources: Meirovitch, Principles and Techniques of Vibrations, 1997, ch. 7 (modes, structural damping); Cornwell,
 // Craig & Johnson, Earthquake Eng. Struct. Dyn. 11, 1983 (static response as an additional vector).
@@ -38,47 +39,60 @@ struct VibrationRange {
 
 class FrequencyResponse {
  public:
+  // Why the basis was not extended further: the error is below the tolerance, further vectors do not reduce it
+  // (round-off), or there are too many.
+  enum class End { converged, stagnated, too_many };
+
   // `modes`: all modes up to kModesBeyond times the highest frequency, about this state. `load`: F on the unknowns, N.
   // Throws ConfigError if a mode is unstable, RunError if the shifted stiffness cannot be factored. `model` must
   // outlive this object.
   FrequencyResponse(const Model& model, const State& about, const Modes& modes, const ComplexVector& load,
                     VibrationDamping damping, const VibrationRange& range);
 
-  // Coordinates of x in the basis, at a frequency in Hz.
+  // Coordinates of x in the basis, at a frequency in Hz. Thread-safe.
   ComplexVector coordinates(double frequency) const;
   const Eigen::MatrixXd& basis() const { return basis_; }  // M-orthonormal columns; the modes come first
 
   // phi_k^T F of a mode.
   std::complex<double> modal_load(int mode) const { return reduced_load_[mode]; }
 
-  // Loss factor of a mode at its natural frequency: twice its damping ratio. 0 for a rigid mode.
-  double loss_factor(int mode) const;
+  // Loss factor of a mode at its natural frequency: twice its damping ratio. 0 for a rigid mode. Modes whose
+  // frequencies are closer than their damping have the loss factors of the damped modes among them.
+  double loss_factor(int mode) const { return loss_factors_[mode]; }
 
   // The largest estimated relative error at the check frequencies, in the energy norm.
   double error() const { return error_; }
+  End end() const { return end_; }
 
  private:
   using Values = std::vector<double>;  // of a matrix on the model's pattern
 
-  Eigen::MatrixXcd projected(double omega) const;
   Vector product(const Values& values, const Vector& x) const;
+  ComplexVector product(const Values& values, const ComplexVector& x) const;
+  void set_loss_factors();
   void factor();
   bool add(Vector direction);
+  bool add_parts(const ComplexVector& x);
+  Vector without_rigid_motion(Vector x) const;
   ComplexVector residual(double omega, const ComplexVector& y) const;
   ComplexVector response_to(const ComplexVector& force);
-  void add_until(const VibrationRange& range);
+  void extend_basis(const VibrationRange& range);
+  void find_coupled(double tolerance);
 
   const Model& model_;
   Values stiffness_, mass_, viscous_, loss_;
-  Vector omega_;  // natural frequencies of the modes, rad/s
+  Vector lambda_;           // of the modes, 1/s^2
+  Eigen::Index zeros_ = 0;  // number of zero modes
   double ratio_;
   ComplexVector load_;
-  double shift_ = 0;  // s, 1/s^2: the solver has a factor of K + s M
-  std::unique_ptr<LinearSolver> solver_;
+  std::unique_ptr<LinearSolver> solver_;  // of K + s M
   Eigen::MatrixXd basis_, mass_times_basis_;
   Eigen::MatrixXd reduced_stiffness_, reduced_viscous_, reduced_loss_;
   ComplexVector reduced_load_;
+  std::vector<Eigen::Index> coupled_, alone_;  // indices of the basis: coupled by damping or stiffness, or not
+  Vector loss_factors_;
   double error_ = 0;
+  End end_ = End::converged;
 };
 
 // Factor on the highest frequency, up to which FrequencyResponse needs the modes.

@@ -30,11 +30,16 @@ void check_list(const std::vector<double>& frequencies, const Config& config) {
 void check_harmonic(const Harmonic& harmonic, const Config& config) {
   if (harmonic.frequencies) {
     if (harmonic.from || harmonic.to) config.fail("give either 'frequencies', or 'from' and 'to'");
+    if (harmonic.points || harmonic.spacing || harmonic.resonances)
+      config.fail("'points', 'spacing' and 'resonances' belong to 'from' and 'to'; remove them, or 'frequencies'");
     check_list(*harmonic.frequencies, config.at("frequencies"));
     return;
   }
   if (!harmonic.from || !harmonic.to) config.fail("give the range of frequencies by 'from' and 'to'");
   if (!(*harmonic.to > *harmonic.from)) config.fail("'to' must be above 'from'");
+  if (!harmonic.points) config.fill("points", "200");
+  if (!harmonic.spacing) config.fill("spacing", "logarithmic");
+  if (!harmonic.resonances) config.fill("resonances", "true");
 }
 
 }  // namespace
@@ -57,11 +62,12 @@ const Spec<Harmonic>& Harmonic::spec() {
       Spec<Harmonic>()
           .key("from", &Harmonic::from, "Lowest frequency.", {.unit = "Hz", .range = kPositive})
           .key("to", &Harmonic::to, "Highest frequency.", {.unit = "Hz", .range = kPositive})
-          .key("points", &Harmonic::points, "Number of frequencies between `from` and `to`.", {.range = {2, 1000000}})
-          .key("spacing", &Harmonic::spacing, "Spacing of these frequencies.")
+          .key("points", &Harmonic::points, "Number of frequencies from `from` to `to`; default 200.",
+               {.range = {2, 100000}})
+          .key("spacing", &Harmonic::spacing, "Spacing of these frequencies; default logarithmic.")
           .key("resonances", &Harmonic::resonances,
                "Also compute the response at each natural frequency in the range and beside it, as closely as the "
-               "damping makes the resonance sharp. Not with `frequencies`.")
+               "damping makes the resonance sharp; default true.")
           .key("frequencies", &Harmonic::frequencies, "Frequencies, instead of `from` and `to`.",
                {.unit = "Hz", .range = kPositive})
           .key("damping_ratio", &Harmonic::damping_ratio,
@@ -71,7 +77,7 @@ const Spec<Harmonic>& Harmonic::spec() {
                "Amplitude of the acceleration of all supports, which vibrate together.", {.unit = "m/s^2"})
           .key("tap_seconds", &Harmonic::tap_seconds,
                "Also write the sound of a tap, by which the loads act for an instant instead of vibrating, of this "
-               "length: tap_PROBE.wav for each probe of a motion.",
+               "length: taps/PROBE.wav for each probe of a motion.",
                {.unit = "s", .range = {0, 60, true, false}})
           .key("rtol", &Harmonic::rtol, "Tolerance of the computed amplitudes for this mesh, in the energy norm.",
                {.range = {1e-10, 0.1}})

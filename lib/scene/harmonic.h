@@ -23,10 +23,10 @@ struct MaterialLoss {
 };
 
 struct Harmonic {
-  std::optional<double> from, to;  // Hz
-  int points = 200;
-  Spacing spacing = Spacing::logarithmic;
-  bool resonances = true;                          // also at and beside each natural frequency
+  std::optional<double> from, to;                  // Hz
+  std::optional<int> points;                       // with from and to: default 200
+  std::optional<Spacing> spacing;                  // of the points; default logarithmic
+  std::optional<bool> resonances;                  // also at and beside each natural frequency; default true
   std::optional<std::vector<double>> frequencies;  // Hz; instead of `from` and `to`
   double damping_ratio = 0;                        // of all modes, relative to critical damping
   Named<MaterialLoss> losses;                      // by material

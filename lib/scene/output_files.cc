@@ -43,8 +43,9 @@ void refuse_cell_fields(const Config& c, const NodeFields& names) {
       c.at(i).fail(fmt::format("'{0}' is a cell field, but probes are at nodes; did you mean 'nodal_{0}'?", names[i]));
 }
 
-ValueSchema schema_of_names(const std::vector<Location>& locations) {
-  ValueSchema name{.kind = ValueSchema::Kind::word};
+// `more`: names besides those of the outputs.
+ValueSchema schema_of_names(const std::vector<Location>& locations, std::vector<std::string> more = {}) {
+  ValueSchema name{.kind = ValueSchema::Kind::word, .names = std::move(more)};
   for (const auto& info : FemModel(FemModel::Parts{}).outputs())
     if (std::find(locations.begin(), locations.end(), info.location) != locations.end())
       name.names.push_back(info.name);
@@ -56,7 +57,8 @@ ValueSchema schema_of_names(const std::vector<Location>& locations) {
 
 }  // namespace
 
-ValueSchema Value<NodeFields>::schema() { return schema_of_names({Location::node}); }
+// A harmonic analysis also has accelerations.
+ValueSchema Value<NodeFields>::schema() { return schema_of_names({Location::node}, {"acceleration"}); }
 NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) {
   NodeFields names = read_names<NodeFields>(c, r);
   refuse_cell_fields(c, names);

@@ -208,6 +208,35 @@ void check_losses(const Scene& scene) {
   }
 }
 
+// Whether a key of the scene, or a term that is no load, can damp.
+bool may_be_damped(const Scene& scene) {
+  const Harmonic& harmonic = *scene.harmonic;
+  return harmonic.damping_ratio > 0 || !harmonic.losses.empty() || scene.damping.has_value() ||
+         std::any_of(scene.regions.begin(), scene.regions.end(),
+                     [](const auto& region) { return region.second.stiffness_damping.has_value(); }) ||
+         std::any_of(scene.terms.begin(), scene.terms.end(),
+                     [](const auto& term) { return term->factor_in_time() == nullptr; });
+}
+
+// Springs, dashpots and the ground are tied to points in space, which do not move with the supports.
+void require_no_anchors(const Config& config, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.terms.size(); ++k)
+    if (!scene.terms[k]->factor_in_time())
+      config.at("terms").at(k).fail(
+          "cannot be combined with harmonic.base_acceleration, by which only the clamped nodes move: remove the term, "
+          "or "
+          "give a load instead of the acceleration");
+}
+
+void refuse_other_times(const Config& config, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.terms.size(); ++k) {
+    Traits traits;
+    scene.terms[k]->declare(traits);
+    if (traits.time_dependent && !scene.terms[k]->factor_in_time())
+      config.at("terms").at(k).fail("varies in time, which a harmonic analysis does not compute");
+  }
+}
+
 bool vibrates(const Config& config, const Scene& scene) {
   bool found = scene.harmonic->base_acceleration.has_value();
   for_each_factor(config, scene, [&](const TimeFunction& factor, const Config& load) {
@@ -230,8 +259,18 @@ void check_harmonic(const Config& config, Scene& scene, bool is_timed) {
   if (!vibrates(config, scene))
     config.fail(
         "no load vibrates: give a load the factor {type: harmonic}, or the supports harmonic.base_acceleration");
-  if (scene.harmonic->base_acceleration && scene.clamps.empty())
-    config.at("harmonic").at("base_acceleration").fail("needs supports: the scene has no 'clamps'");
+  if (scene.harmonic->base_acceleration) {
+    if (scene.clamps.empty())
+      config.at("harmonic").at("base_acceleration").fail("needs supports: the scene has no 'clamps'");
+    require_no_anchors(config, scene);
+  }
+  refuse_other_times(config, scene);
+  if (!may_be_damped(scene))
+    config.at("harmonic")
+        .fail(
+            "nothing damps the vibration, so that amplitudes at resonances are infinite: give damping_ratio, losses of "
+            "the "
+            "materials, or the scene's damping");
   const Output& output = scene.output;
   const Output usual;
   if (output.fields != usual.fields || !output.extremes.empty() || output.reactions || output.momentum ||
@@ -243,10 +282,10 @@ void check_harmonic(const Config& config, Scene& scene, bool is_timed) {
   if (!scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
 }
 
-void check_expectations(const Scene& scene) {
+void check_expectations(Scene& scene) {
   if (scene.analysis == Analysis::buckling) return;
   const bool is_harmonic = scene.analysis == Analysis::harmonic;
-  for (const Expectation& e : scene.expect) {
+  for (Expectation& e : scene.expect) {
     if (e.buckling) e.origin.fail("'buckling' needs analysis: buckling");
     if (!is_harmonic && (e.response || e.frequency))
       e.origin.fail("'response' and 'frequency' need analysis: harmonic");
@@ -254,6 +293,7 @@ void check_expectations(const Scene& scene) {
       e.origin.fail(
           "a harmonic analysis has no time: instead of take, at and of, use response: amplitude, phase, peak or "
           "peak_frequency");
+    if (is_harmonic && !e.is_eigenvalue()) e.response = e.response_metric();
   }
 }
 

@@ -121,7 +121,8 @@ class AResult(InAFolder):
 
     def test_of_a_harmonic_analysis_has_complex_amplitudes(self):
         result = orthodyn.Scene({
-            "analysis": "harmonic", "mesh": beam()["mesh"], "materials": beam()["materials"], "clamps": [{"surface": "x0"}],
+            "analysis": "harmonic", "mesh": beam()["mesh"] | {"size": [1, 0.2, 0.1]}, "materials": beam()["materials"],
+            "clamps": [{"surface": "x0"}],
             "loads": [{"surface": "x1", "force": [0, 0, 1], "factor": {"type": "harmonic"}}],
             "harmonic": {"from": 1, "to": 60, "damping_ratio": 0.02}, "output": {"probes": {"tip": {"at": [1, 0, 0]}}}}).run()
         self.assertEqual(result.status, "completed")

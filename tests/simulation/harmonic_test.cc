@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <sstream>
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/harmonic/frequency_grid.h"
@@ -33,7 +34,8 @@ TEST(LossOf, IsTheImaginaryPartOfTheStiffnessWithComplexModuli) {
     const MaterialLoss loss{.young = std::vector<double>{size, 3 * size, 4 * size},
                             .shear = std::vector<double>{3 * size, 5 * size, 2 * size}};
     const double eta[] = {size, 3 * size, 4 * size, 3 * size, 5 * size, 2 * size};
-    Eigen::Matrix<std::complex<double>, 6, 6> compliance = voigt(kWood).inverse();
+    const Mat6 at_rest = voigt(kWood).inverse();
+    Eigen::Matrix<std::complex<double>, 6, 6> compliance = at_rest.cast<std::complex<double>>();
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         compliance(i, j) /= std::sqrt(std::complex<double>(1, eta[i])) * std::sqrt(std::complex<double>(1, eta[j]));
@@ -66,8 +68,9 @@ TEST(FrequencyGrid, HasTheResonancesAndAscends) {
   EXPECT_EQ(missed_resonances(without, resonances), (std::vector<int>{3, 4}));
   const auto linear = frequency_grid({.from = 100, .to = 1000, .points = 4, .spacing = Spacing::linear}, {});
   EXPECT_EQ(linear, (std::vector<double>{100, 400, 700, 1000}));
-  EXPECT_EQ(check_frequencies(linear), linear);
-  EXPECT_EQ(check_frequencies({7}), std::vector<double>{7});
+  EXPECT_EQ(check_frequencies(linear, {}), linear);
+  EXPECT_EQ(check_frequencies({7}, {3, 7, 20}), std::vector<double>{7});
+  EXPECT_EQ(check_frequencies(linear, {50, 450}), (std::vector<double>{100, 400, 450, 700, 1000}));
 }
 
 const std::string kPlate = R"(analysis: harmonic
@@ -100,6 +103,13 @@ TEST_F(HarmonicRun, WritesResponseAndModes) {
   EXPECT_EQ(orthodyn("check plate.yaml").exit_code, 0);
 }
 
+TEST_F(HarmonicRun, OfTheTemplateHasNoWarning) {
+  ASSERT_EQ(orthodyn("init harmonic my.yaml").exit_code, 0);
+  const auto result = orthodyn("run my.yaml --out out");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("warning"), std::string::npos) << result.output;
+}
+
 TEST_F(HarmonicRun, OfAFreeBodyIsDoneWithoutClamps) {
   write("plate.yaml", kPlate + kTap + kRange);
   const auto result = orthodyn("run plate.yaml --out out");
@@ -122,8 +132,20 @@ TEST_F(HarmonicRun, RefusesWhatItCannotCompute) {
       {kClamp + kRange, "no load vibrates"},
       {kClamp + kTap + "harmonic: {from: 100, damping_ratio: 0.01}\n", "by 'from' and 'to'"},
       {kClamp + kTap + "harmonic: {from: 100, to: 50, damping_ratio: 0.01}\n", "'to' must be above 'from'"},
-      {kClamp + kTap + "harmonic: {from: 100, to: 2000}\n", "nothing damps mode 1"},
+      {kClamp + kTap + "harmonic: {from: 100, to: 2000}\n", "nothing damps the vibration"},
       {kClamp + kTap + "harmonic: {from: 1, to: 2, losses: {wood: {factor: 0.1}}}\n", "unknown material 'wood'"},
+      {kClamp + kTap + "harmonic: {frequencies: [1, 2], points: 3, damping_ratio: 0.1}\n", "belong to 'from' and 'to'"},
+      {kClamp +
+           "terms: [{type: spring, nearest: [0.2, 0, 0], stiffness: 1}]\nharmonic: {from: 1, to: 2, damping_ratio: "
+           "0.1, base_acceleration: [0, 0, 1]}\n",
+       "cannot be combined with harmonic.base_acceleration"},
+      {kClamp + kTap + "harmonic: {from: 1, to: 900, losses: {m: {young: [0.1, 0.2, 0.1], shear: [0.1, 0.1, 0.1]}}}\n",
+       "one loss factor"},
+      {kClamp + kTap + "harmonic: {from: 10, to: 900, losses: {m: {factor: 0}}}\n", "nothing damps mode 1"},
+      {kClamp + "terms: [{type: point_load, nearest: [0.2, 0, 0], force: [0, 0, 1], factor: {type: harmonic, phase: 90 "
+                "deg}}]\n"
+                "harmonic: {from: 10, to: 900, damping_ratio: 0.1, tap_seconds: 1}\n",
+       "a tap has no phase"},
       {kClamp + kTap + "harmonic: {from: 1, to: 2, losses: {m: {}}}\n", "exactly one of: factor, quality, young"},
       {kClamp + kTap + kRange + "time: {end: 1}\n", "no effect in a harmonic analysis"},
       {kTap + "harmonic: {from: 1, to: 2, damping_ratio: 0.1, base_acceleration: [0, 0, 1]}\n", "needs supports"},
@@ -174,7 +196,7 @@ TEST_F(HarmonicRun, WritesTheSoundOfATap) {
   ASSERT_EQ(result.exit_code, 0) << result.output;
   const auto modes = read_rows(folder_ / "out/modes.csv");
   ASSERT_EQ(modes.size(), 1u);
-  const std::string wav = read_text(folder_ / "out/tap_tip.wav");
+  const std::string wav = read_text(folder_ / "out/taps/tip.wav");
   ASSERT_EQ(wav.size(), 44 + 2 * 8820u);
   EXPECT_EQ(wav.substr(0, 4) + wav.substr(8, 8), "RIFFWAVEfmt ");
   const auto sample = [&](std::size_t k) {
@@ -201,18 +223,38 @@ TEST_F(HarmonicRun, IsVerifiedSweptAndConverged) {
   const auto verified = orthodyn("verify plate.yaml");
   EXPECT_EQ(verified.exit_code, 0) << verified.output;
   write("sweep.yaml", R"(scene: plate.yaml
-vary: {materials.m.density: {values: [450, 1800]}}
+vary: {materials.m.density: {values: [450, 900]}}
 quantities:
   peak: {quantity: tip.displacement.z, response: peak_frequency}
   size: {quantity: tip.displacement.z, frequency: 100 Hz}
 )");
   const auto swept = orthodyn("sweep sweep.yaml --out swept");
   ASSERT_EQ(swept.exit_code, 0) << swept.output;
+  std::istringstream text(read_text(folder_ / "swept/sweep.csv"));
+  std::vector<std::vector<std::string>> table;
+  for (std::string line, cell; std::getline(text, line);) {
+    std::istringstream cells(line);
+    table.emplace_back();
+    while (std::getline(cells, cell, ',')) table.back().push_back(cell);
+  }
+  ASSERT_EQ(table.size(), 3u);
+  const auto value = [&](const std::string& name, std::size_t row) {
+    const auto starts = [&](const std::string& cell) { return cell.starts_with(name); };
+    const auto column = std::find_if(table[0].begin(), table[0].end(), starts) - table[0].begin();
+    return std::stod(table[row].at(static_cast<std::size_t>(column)));
+  };
+  EXPECT_NEAR(value("peak", 1) / value("peak", 2), std::sqrt(2), 1e-4);  // proportional to 1 / sqrt(density)
+  EXPECT_GT(value("peak", 1), 100);
+  EXPECT_LT(value("size", 1), 1e-3);
   const auto refused = orthodyn("converge plate.yaml --quantity 'max of tip.displacement.z'");
   EXPECT_EQ(refused.exit_code, 2) << refused.output;
-  const auto converged =
-      orthodyn("converge plate.yaml --levels 2 --quantity 'peak_frequency of tip.displacement.z' --out c");
-  EXPECT_EQ(converged.exit_code, 0) << converged.output;
+  const auto without = orthodyn("converge plate.yaml --quantity 'amplitude of tip.displacement.z'");
+  EXPECT_EQ(without.exit_code, 2) << without.output;
+  const auto converged = orthodyn(
+      "converge plate.yaml --levels 2 --quantity 'peak_frequency of tip.displacement.z' "
+      "--quantity 'amplitude of tip.displacement.z at 100 Hz' --out c");
+  ASSERT_EQ(converged.exit_code, 0) << converged.output;
+  EXPECT_NE(converged.output.find(" Hz"), std::string::npos) << converged.output;
 }
 
 }  // namespace

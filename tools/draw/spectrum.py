@@ -17,7 +17,10 @@ def amplitude_spectrum(times, values):
     """Frequencies (Hz) and amplitudes of a real signal at equal intervals: a sine has its own amplitude at its frequency.
     The mean is left out, and a Hann window keeps peaks apart."""
     window = np.hanning(len(values))
-    amplitudes = 2 * np.abs(np.fft.rfft((values - np.mean(values)) * window)) / window.sum()
+    mean = np.average(values, weights=window)
+    amplitudes = 2 * np.abs(np.fft.rfft((values - mean) * window)) / window.sum()
+    if len(values) % 2 == 0:
+        amplitudes[-1] /= 2  # half the sampling frequency has no partner
     return np.fft.rfftfreq(len(values), (times[-1] - times[0]) / (len(times) - 1)), amplitudes
 
 

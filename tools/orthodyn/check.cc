@@ -112,7 +112,9 @@ void print_harmonic(const Setup& setup) {
   const Harmonic& harmonic = *setup.scene.harmonic;
   fmt::print("harmonic\n");
   if (harmonic.frequencies) fmt::print("  {}", fmt::format("{} given frequencies", harmonic.frequencies->size()));
-  else fmt::print("  {} frequencies{}", harmonic.points, harmonic.resonances ? " and those beside resonances" : "");
+  else
+    fmt::print("  {} frequencies{}", harmonic.points.value_or(200),
+               harmonic.resonances.value_or(true) ? " and those beside resonances" : "");
   fmt::print(" from {:.6g} to {:.6g} Hz\n", harmonic.lowest(), harmonic.highest());
   if (harmonic.damping_ratio > 0) fmt::print("  damping ratio {:.4g} of each mode\n", harmonic.damping_ratio);
   for (const auto& [material, loss] : harmonic.losses) fmt::print("  losses of {}\n", material);

@@ -110,6 +110,31 @@ output:                    # a frame and a row for each load step
     tip: {at: [1, 0.025, 0.01]}
 )";
 
+constexpr const char* kHarmonicAnalysis =
+    R"(analysis: harmonic         # the steady vibration over a range of frequencies, see docs/harmonic.md
+)";
+
+constexpr const char* kVibration = R"(
+clamps:                    # none for a free body
+  - surface: x0            # a box has x0, x1, y0, y1, z0, z1
+
+terms:
+  - type: point_load
+    nearest: [1, 0.025, 0.02]
+    force: [0, 0, 1]       # N, the amplitude; with 1 N velocities are mobilities
+    factor: {type: harmonic}   # loads without this factor are steady
+
+harmonic:
+  from: 5 Hz
+  to: 200 Hz
+  losses:                  # or {factor: 0.01}, {quality: 100}; or damping_ratio: 0.01 for all modes
+    wood: {young: [0.007, 0.02, 0.02], shear: [0.016, 0.016, 0.016]}
+
+output:                    # response.csv; draw it with tools/draw/draw response
+  probes:
+    tip: {at: [1, 0.025, 0.01], fields: [velocity]}   # also displacement, acceleration, nodal_strain, nodal_stress
+)";
+
 constexpr const char* kComparison = R"(# Which integrator reaches which error in which time?
 # Run it with `orthodyn compare {file}`; its report is an HTML page.
 title: What is compared
@@ -170,6 +195,7 @@ const std::map<std::string, std::string>& starts() {
   static const std::string head = kSceneHead, body = kBody;
   static const std::map<std::string, std::string> all = {{"scene", head + body + kMotion},
                                                          {"static", head + kAnalysis + body + kRest},
+                                                         {"harmonic", head + kHarmonicAnalysis + body + kVibration},
                                                          {"comparison", kComparison},
                                                          {"sweep", kSweep},
                                                          {"stability", kStability}};
@@ -183,7 +209,7 @@ std::string with_file_name(std::string text, const std::string& file) {
 }
 
 std::string modeline(const std::string& kind) {
-  const fs::path schema = schema_file(kind == "static" ? "scene" : kind);
+  const fs::path schema = schema_file(kind == "static" || kind == "harmonic" ? "scene" : kind);
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 
@@ -225,7 +251,8 @@ int init(const InitArguments& arguments) {
 }
 
 void declare(InitArguments& arguments, CommandOptions& options) {
-  options.value("kind", arguments.kind, "Kind of file: scene, static, comparison, sweep or stability.").required();
+  options.value("kind", arguments.kind, "Kind of file: scene, static, harmonic, comparison, sweep or stability.")
+      .required();
   options.value("file", arguments.file, "Name of the file; default KIND.yaml.").type("FILE.yaml");
   options
       .value("--from", arguments.from,

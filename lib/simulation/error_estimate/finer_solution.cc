@@ -177,13 +177,17 @@ class Subspace {
     MV_.col(count_) = mass_times(model_, V_.col(count_));
     ++count_;
   }
-  // Rayleigh-Ritz values, ascending.
-  Vector eigenvalues() const {
+  // Rayleigh-Ritz values, ascending; the low ones are the more accurate. `shift` s: K + s M is positive definite. The
+  // eigenvalues 1/(lambda + s) of the inverse problem are computed, because those of K have an error relative to the
+  // largest one, which would hide low frequencies if there are many modes.
+  Vector eigenvalues(double shift) const {
     const auto V = V_.leftCols(count_);
-    const Eigen::MatrixXd M = V.transpose() * MV_.leftCols(count_), K = V.transpose() * KV_.leftCols(count_);
-    const Vector scale = M.diagonal().cwiseSqrt().cwiseInverse();
-    return symmetric_eigenvalues(scale.asDiagonal() * K * scale.asDiagonal(),
-                                 scale.asDiagonal() * M * scale.asDiagonal());
+    const Eigen::MatrixXd M = V.transpose() * MV_.leftCols(count_);
+    const Eigen::MatrixXd K = V.transpose() * KV_.leftCols(count_) + shift * M;
+    const Vector scale = K.diagonal().cwiseSqrt().cwiseInverse();
+    const Vector inverse =
+        symmetric_eigenvalues(scale.asDiagonal() * M * scale.asDiagonal(), scale.asDiagonal() * K * scale.asDiagonal());
+    return inverse.reverse().cwiseInverse().array() - shift;
   }
 
  private:
@@ -229,7 +233,8 @@ std::vector<double> frequency_errors(const FinerModel& finer, const State& about
   const auto zeros = static_cast<std::size_t>(modes.zeros);
   if (zeros == errors.size()) return errors;
   // Also of mixed elements: frequencies about a loaded state depend on the part of the tangent that Gauss-Newton lacks.
-  const FinerSystem system(finer, about, shift_for(modes), TangentKind::exact);
+  const double shift = shift_for(modes);
+  const FinerSystem system(finer, about, shift, TangentKind::exact);
   Subspace space(system, finer.model(), static_cast<Eigen::Index>(2 * errors.size() - zeros));
   Eigen::MatrixXd residuals(finer.model().num_dofs(), static_cast<Eigen::Index>(errors.size() - zeros));
   for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -242,7 +247,7 @@ std::vector<double> frequency_errors(const FinerModel& finer, const State& about
   }
   for (const auto& correction : system.solve(residuals))
     if (correction.energy > 0) space.add(correction.x);
-  const Vector finer_values = space.eigenvalues();
+  const Vector finer_values = space.eigenvalues(shift);
   const double more = extrapolation(finer.coarse().parts().mesh.order());
   for (std::size_t k = zeros; k < errors.size(); ++k) {
     // Extrapolates the compliance 1/lambda, because errors of compliances add like energies.

@@ -13,8 +13,9 @@ constexpr double kBeside[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5, 8, 13, 21};
 std::vector<double> spaced(const Harmonic& harmonic) {
   std::vector<double> out;
   const double from = *harmonic.from, to = *harmonic.to;
-  for (int k = 0; k < harmonic.points; ++k) {
-    const double share = k / (harmonic.points - 1.0);
+  const int points = harmonic.points.value_or(200);
+  for (int k = 0; k < points; ++k) {
+    const double share = k / (points - 1.0);
     out.push_back(harmonic.spacing == Spacing::linear ? from + share * (to - from) : from * std::pow(to / from, share));
   }
   out.back() = to;
@@ -36,7 +37,7 @@ void add_resonance(const Resonance& resonance, double low, double high, std::vec
 std::vector<double> frequency_grid(const Harmonic& harmonic, const std::vector<Resonance>& resonances) {
   if (harmonic.frequencies) return *harmonic.frequencies;
   std::vector<double> grid = spaced(harmonic);
-  if (!harmonic.resonances) return grid;
+  if (!harmonic.resonances.value_or(true)) return grid;
   const double from = *harmonic.from, to = *harmonic.to;
   for (std::size_t k = 0; k < resonances.size(); ++k) {
     const double f = resonances[k].frequency;
@@ -50,12 +51,28 @@ std::vector<double> frequency_grid(const Harmonic& harmonic, const std::vector<R
   return grid;
 }
 
-std::vector<double> check_frequencies(const std::vector<double>& grid) {
-  constexpr std::size_t kChecks = 10;
-  const std::size_t last = grid.size() - 1, intervals = std::min(kChecks, last);
+namespace {
+
+// At most `count` of the values, evenly distributed, with the first and the last.
+std::vector<double> some_of(const std::vector<double>& all, std::size_t count) {
+  if (all.size() <= count) return all;
   std::vector<double> out;
-  for (std::size_t k = 0; k < intervals; ++k) out.push_back(grid[k * last / intervals]);
-  out.push_back(grid.back());
+  for (std::size_t k = 0; k < count; ++k) out.push_back(all[k * (all.size() - 1) / (count - 1)]);
+  return out;
+}
+
+}  // namespace
+
+std::vector<double> check_frequencies(const std::vector<double>& grid, const std::vector<double>& natural) {
+  constexpr std::size_t kChecks = 11, kResonances = 6;
+  std::vector<double> within;
+  for (const double f : natural)
+    if (f >= grid.front() && f <= grid.back()) within.push_back(f);
+  std::vector<double> out = some_of(grid, kChecks);
+  const std::vector<double> resonances = some_of(within, kResonances);
+  out.insert(out.end(), resonances.begin(), resonances.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

@@ -18,8 +18,9 @@ struct Resonance {
 // Ascending.
 std::vector<double> frequency_grid(const Harmonic& harmonic, const std::vector<Resonance>& resonances);
 
-// Frequencies of `grid` at which the error is estimated: about ten, evenly distributed, with the first and the last.
-std::vector<double> check_frequencies(const std::vector<double>& grid);
+// Frequencies at which the error is estimated, ascending: about ten of the grid, with the first and the last, and some
+// of the natural frequencies (Hz) between them.
+std::vector<double> check_frequencies(const std::vector<double>& grid, const std::vector<double>& natural);
 
 // The numbers, from 1, of the resonances in the range whose peak can lie between two frequencies of the grid: none is
 // within half a bandwidth of the natural frequency.

@@ -6,6 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include "lib/analysis/rigid_freedom.h"
+#include "lib/core/parallel.h"
 #include "lib/simulation/harmonic/loss_stiffness.h"
 #include "lib/simulation/statics/static_problem.h"
 
@@ -39,23 +41,46 @@ HarmonicResponse::HarmonicResponse(const Setup& setup) : setup_(setup), model_(*
   about_ = steady_state();
   const ComplexVector force = load();
   if (force.isZero(0)) setup.config.fail("the loads that vibrate are zero, or act on clamped nodes only");
-  modes_ = natural_modes_below(model_, about_, kModesBeyond * harmonic.highest());
-  std::vector<double> grid = frequency_grid(harmonic, {});
+  if (harmonic.tap_seconds && !force.imag().isZero(1e-9 * force.norm()))
+    setup.config.at("harmonic").at("tap_seconds").fail("needs loads with the phase 0 or 180 deg: a tap has no phase");
+  modes_ = find_modes();
+  std::vector<double> natural;
+  for (const Mode& mode : modes_.modes) natural.push_back(mode.frequency());
   response_.emplace(model_, about_, modes_, force,
-                    VibrationDamping{harmonic.damping_ratio, loss_stiffness(setup.scene, about_.q)},
-                    VibrationRange{check_frequencies(grid), harmonic.rtol});
+                    VibrationDamping{harmonic.damping_ratio, loss_stiffness(setup.scene, model_, about_.q)},
+                    VibrationRange{check_frequencies(frequency_grid(harmonic, {}), natural), harmonic.rtol});
   for (std::size_t k = 0; k < modes_.modes.size(); ++k)
     resonances_.push_back({modes_.modes[k].frequency(), response_->loss_factor(static_cast<int>(k))});
   require_damping();
   frequencies_ = frequency_grid(harmonic, resonances_);
   set_basis(columns_, setup.scene, model_, about_, response_->basis());
   amplitudes_.resize(std::ssize(columns_), std::ssize(frequencies_));
-  for (std::size_t f = 0; f < frequencies_.size(); ++f) {
-    const ComplexVector y = response_->coordinates(frequencies_[f]);
+  parallel_for(static_cast<int>(frequencies_.size()), [&](int f) {
+    const double frequency = frequencies_[static_cast<std::size_t>(f)];
+    const ComplexVector y = response_->coordinates(frequency);
     for (std::size_t c = 0; c < columns_.size(); ++c)
-      amplitudes_(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(f)) =
-          columns_[c].amplitude(frequencies_[f], y);
+      amplitudes_(static_cast<Eigen::Index>(c), f) = columns_[c].amplitude(frequency, y);
+  });
+}
+
+// Round-off hides low frequencies of slender bodies. Their modes would then count as rigid motions.
+Modes HarmonicResponse::find_modes() const {
+  const double highest = setup_.scene.harmonic->highest();
+  Modes found;
+  try {
+    found = natural_modes_below(model_, about_, kModesBeyond * highest);
+  } catch (const ConfigError& e) {
+    if (!e.place().empty()) throw;
+    setup_.config.at("harmonic").fail(e.message());
   }
+  if (found.zeros > 0 && found.zeros > count_rigid_freedom(model_, about_.t))
+    setup_.config.at("harmonic")
+        .fail(fmt::format(
+            "round-off hides natural frequencies below {:.2g} Hz of this mesh, which is fine for a slender body: {} of "
+            "the "
+            "modes cannot be distinguished from rigid motions. Use a coarser mesh along the body, or clamp it",
+            found.resolution, found.zeros));
+  return found;
 }
 
 // The equilibrium under the loads that do not vibrate.
@@ -78,7 +103,9 @@ ComplexVector HarmonicResponse::load() const {
 void HarmonicResponse::require_damping() const {
   for (std::size_t k = 0; k < modes_in_range(); ++k) {
     const auto& [frequency, loss_factor] = resonances_[k];
-    if (frequency >= setup_.scene.harmonic->lowest() && !(loss_factor > 0))
+    // Smaller loss factors are round-off.
+    constexpr double kUndamped = 1e-9;
+    if (frequency >= setup_.scene.harmonic->lowest() && !(loss_factor > kUndamped))
       setup_.config.at("harmonic")
           .fail(fmt::format(
               "nothing damps mode {} at {:.6g} Hz, so that its amplitude at resonance is infinite: give damping_ratio, "

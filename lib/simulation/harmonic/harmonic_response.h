@@ -46,11 +46,13 @@ class HarmonicResponse {
   double impulse_velocity(std::size_t column, std::size_t mode) const;
 
   double error() const { return response_->error(); }  // FrequencyResponse::error()
+  FrequencyResponse::End end() const { return response_->end(); }
   Eigen::Index basis_size() const { return response_->basis().cols(); }
 
  private:
   State steady_state();
   ComplexVector load() const;
+  Modes find_modes() const;
   void require_damping() const;
 
   const Setup& setup_;

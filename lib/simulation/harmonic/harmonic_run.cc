@@ -2,16 +2,19 @@
 // the sounds of taps.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <exception>
 #include <numbers>
 #include <optional>
 
+#include "lib/core/spelling.h"
 #include "lib/simulation/harmonic/harmonic_response.h"
 #include "lib/simulation/harmonic/tap.h"
 #include "lib/simulation/modes/mode_files.h"
 #include "lib/simulation/output/files.h"
+#include "lib/simulation/run/kinematics.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
@@ -19,6 +22,43 @@
 namespace orthodyn {
 
 namespace {
+
+// Materials of the body that have no entry in `losses`, although others have one.
+std::vector<std::string> lossless(const Scene& scene) {
+  std::vector<std::string> names;
+  if (scene.harmonic->losses.empty()) return names;
+  for (const auto& [region, entry] : scene.regions)
+    for (const std::string& material : entry.materials()) {
+      const auto is_it = [&](const auto& other) { return other.first == material; };
+      if (std::none_of(scene.harmonic->losses.begin(), scene.harmonic->losses.end(), is_it) &&
+          std::find(names.begin(), names.end(), material) == names.end())
+        names.push_back(material);
+    }
+  return names;
+}
+
+std::vector<std::string> warnings_of(const HarmonicResponse& response, const FrequencyErrors& errors,
+                                     const Setup& setup) {
+  const Scene& scene = setup.scene;
+  const Mesh& mesh = setup.built.model->parts().mesh;
+  std::vector<std::string> all;
+  if (const auto names = lossless(scene); !names.empty())
+    all.push_back(
+        fmt::format("harmonic.losses has no entry for {}: computed without loss. Give `factor: 0` if this is "
+                    "intended",
+                    join(names)));
+  if (response.is_loaded() && has_linear_region(scene))
+    all.push_back(
+        "the steady loads do not stiffen or soften the body, because kinematics: linear have no stress stiffness; "
+        "remove kinematics: linear");
+  if (response.is_loaded() && has_unsymmetric_load(scene, mesh))
+    all.push_back(
+        "a steady load that follows the body makes the stiffness unsymmetric; the vibration is that of its symmetric "
+        "part, without flutter");
+  for (const std::string& warning : {frequency_warning(errors, mesh.order()), locking_warning(errors.locking_risk)})
+    if (!warning.empty()) all.push_back(warning);
+  return all;
+}
 
 HarmonicResult describe(const HarmonicResponse& response, const Setup& setup) {
   HarmonicResult result{.is_loaded = response.is_loaded(),
@@ -30,7 +70,8 @@ HarmonicResult describe(const HarmonicResponse& response, const Setup& setup) {
                         .rtol = setup.scene.harmonic->rtol,
                         .missed = missed_resonances(response.frequencies(), response.resonances())};
   const FrequencyErrors errors = response.mesh_errors();
-  result.mesh_warning = frequency_warning(errors, setup.built.model->parts().mesh.order());
+  result.stagnated = response.end() == FrequencyResponse::End::stagnated;
+  result.warnings = warnings_of(response, errors, setup);
   for (std::size_t k = 0; k < response.modes_in_range(); ++k) {
     const Resonance& resonance = response.resonances()[k];
     result.modes.push_back({resonance.frequency, resonance.loss_factor / 2, errors.shares[k]});

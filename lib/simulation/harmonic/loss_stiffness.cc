@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lib/core/symmetric_eigen.h"
+#include "lib/material/stiffness_contrast.h"
 #include "lib/scene/build.h"
 
 namespace orthodyn {
@@ -51,9 +52,16 @@ Stiffness scaled(const C& c, const Vec6& eta) {
   }
 }
 
-// The scene with the stiffness of the losses.
-Scene loss_scene(const Scene& scene) {
+// The scene with the stiffness of the losses. Each region keeps the formulation that it has in `model`.
+Scene loss_scene(const Scene& scene, const FemModel& model) {
   Scene out = scene;
+  for (auto& [name, region] : out.regions) region.formulation = Formulation::displacement;
+  for (const auto& term : model.parts().elastic) {
+    if (!term->definition().mixed) continue;
+    const std::string& name = entry_of(scene, term->definition().mesh_region).first;
+    for (auto& [other, region] : out.regions)
+      if (other == name) region.formulation = Formulation::mixed;
+  }
   for (auto& [name, material] : out.materials) {
     Stiffness stiffness = OrthotropicStiffness{};
     for (const auto& [of, loss] : scene.harmonic->losses)
@@ -67,6 +75,14 @@ Scene loss_scene(const Scene& scene) {
 
 Stiffness loss_of(const Stiffness& stiffness, const MaterialLoss& loss) {
   const Vec6 eta = factors_of(loss);
+  const bool is_uniform = (eta.array() == eta[0]).all();
+  if (!is_uniform && std::holds_alternative<IsotropicStiffness>(stiffness))
+    loss.origin.fail("an isotropic material has one loss factor: give 'factor' or 'quality'");
+  if (!is_uniform && is_nearly_incompressible(stiffness))
+    loss.origin.fail(
+        "loss factors by modulus are not available for a nearly incompressible material, whose volume strain they "
+        "would "
+        "damp strongly: give 'factor' or 'quality'");
   const Stiffness out = std::visit([&](const auto& c) { return scaled(c, eta); }, stiffness);
   const Vec6 values = symmetric_eigenvalues<6>(voigt(out));
   if (values[0] < -1e-12 * values[5])
@@ -75,9 +91,9 @@ Stiffness loss_of(const Stiffness& stiffness, const MaterialLoss& loss) {
   return out;
 }
 
-std::vector<double> loss_stiffness(const Scene& scene, const Vector& q) {
+std::vector<double> loss_stiffness(const Scene& scene, const FemModel& model, const Vector& q) {
   if (scene.harmonic->losses.empty()) return {};
-  const BuiltScene built = build(loss_scene(scene));
+  const BuiltScene built = build(loss_scene(scene, model));
   auto parts = built.model->force_parts();
   parts.resize(built.model->parts().elastic.size());  // the elastic parts come first
   const auto elasticity = built.model->only(parts);

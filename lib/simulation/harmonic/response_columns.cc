@@ -83,8 +83,8 @@ std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::s
 
 void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const FemModel& model, const State& about,
                const Eigen::MatrixXd& basis) {
-  constexpr double kStep = 1e-5;  // displacement of the differences, relative to the body
-  const double size = bounding_box(model.parts().mesh).diagonal();
+  constexpr double kStep = 1e-5;  // displacement of the differences, relative to the smallest extent of the body
+  const double size = bounding_box(model.parts().mesh).size().minCoeff();
   for (ResponseColumn& column : columns) column.of_basis = Vector::Zero(basis.cols());
   for (Eigen::Index k = 0; k < basis.cols(); ++k) {
     const double step = kStep * size / largest_displacement(basis.col(k));

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "lib/core/write_file.h"
@@ -27,11 +28,13 @@ double loudest(const std::vector<double>& samples) {
   return out;
 }
 
-// The name of a probe without characters that have a meaning in paths.
-std::string file_name(std::string probe) {
+// The name of a probe without characters that have a meaning in paths, and different from those `used`.
+std::string file_name(std::string probe, const std::set<std::string>& used) {
   for (char& c : probe)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  return probe;
+    if (static_cast<unsigned char>(c) < 128 && !std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  std::string name = probe;
+  for (int k = 2; used.contains(name); ++k) name = fmt::format("{}_{}", probe, k);
+  return name;
 }
 
 }  // namespace
@@ -83,8 +86,11 @@ void write_taps(const std::filesystem::path& folder, const HarmonicResponse& res
     auto& best = of_probe[column.probe];
     if (best.empty() || loudest(samples) > loudest(best)) best = std::move(samples);
   }
-  for (const auto& [probe, samples] : of_probe)
-    write_wav(folder / fmt::format("tap_{}.wav", file_name(probe)), samples);
+  std::set<std::string> used;
+  for (const auto& [probe, samples] : of_probe) {
+    const std::string name = *used.insert(file_name(probe, used)).first;
+    write_wav(folder / "taps" / (name + ".wav"), samples);
+  }
 }
 
 }  // namespace orthodyn

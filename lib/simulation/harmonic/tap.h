@@ -18,7 +18,7 @@ std::vector<double> tap(const HarmonicResponse& response, std::size_t column, do
 // Writes samples as 16-bit mono PCM, scaled to 0.9 of the range. Throws RunError if the file cannot be written.
 void write_wav(const std::filesystem::path& path, const std::vector<double>& samples);
 
-// Writes tap_PROBE.wav for each probe with a motion: of its component with the largest velocity.
+// Writes taps/PROBE.wav for each probe with a motion: of its component with the largest velocity.
 void write_taps(const std::filesystem::path& folder, const HarmonicResponse& response, double seconds);
 
 }  // namespace orthodyn

@@ -119,17 +119,19 @@ void add_warnings(const EquilibriumResult& equilibrium, std::vector<std::string>
 
 void add_warnings(const HarmonicResult& harmonic, std::vector<std::string>& all) {
   if (harmonic.error > harmonic.rtol)
-    add_warning(all,
-                "amplitudes have an estimated error of {:.1e}, more than harmonic.rtol, {:.1e}: strong damping couples "
-                "the modes. Increase rtol if this is enough, or lower the highest frequency",
-                harmonic.error, harmonic.rtol);
+    add_warning(all, "amplitudes have an estimated error of {:.1e}, more than harmonic.rtol, {:.1e}: {}",
+                harmonic.error, harmonic.rtol,
+                harmonic.stagnated
+                    ? "round-off prevents a smaller one. If it is small enough, increase rtol"
+                    : "strong damping couples many modes. Increase rtol if this is enough, or lower the highest "
+                      "frequency");
   if (!harmonic.missed.empty())
     add_warning(all,
                 "the frequencies miss {}: none is within half a bandwidth of the natural frequency of {} {}, so that "
-                "peaks are too low. Give more frequencies there, or from, to and resonances: true",
+                "response.csv does not show the peak. Give more frequencies there, or from and to",
                 counted(static_cast<long>(harmonic.missed.size()), "resonance"),
                 harmonic.missed.size() == 1 ? "mode" : "modes", fmt::join(harmonic.missed, ", "));
-  if (!harmonic.mesh_warning.empty()) all.push_back(harmonic.mesh_warning);
+  all.insert(all.end(), harmonic.warnings.begin(), harmonic.warnings.end());
 }
 
 }  // namespace

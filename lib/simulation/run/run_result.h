@@ -129,10 +129,11 @@ struct HarmonicResult {
     double frequency = 0, amplitude = 0;
   };
   std::vector<Peak> peaks = {};
-  long basis = 0;                 // number of vectors
-  double error = 0, rtol = 0;     // estimated relative error of the amplitudes for this mesh, and the requested one
-  std::vector<int> missed = {};   // modes whose resonance can lie between two frequencies
-  std::string mesh_warning = {};  // frequency_warning(); or ""
+  long basis = 0;                // number of vectors
+  double error = 0, rtol = 0;    // estimated relative error of the amplitudes for this mesh, and the requested one
+  std::vector<int> missed = {};  // modes whose resonance can lie between two frequencies
+  bool stagnated = false;        // further vectors did not reduce the error
+  std::vector<std::string> warnings = {};  // of the set-up and the mesh
 };
 
 struct RunResult {

@@ -29,18 +29,28 @@ void add(Named<WantedMetric>& metrics, TimeReduction take, const std::string& qu
   add(metrics, {.quantity = quantity, .take = take}, name_of(take, quantity));
 }
 
-// "max of tip.displacement.z"
+// `rest`: "tip.displacement.z" or "tip.displacement.z at 120 Hz".
+void add_response(Named<WantedMetric>& metrics, const std::string& rest, ResponseMetric response,
+                  const Config& origin) {
+  const auto at = rest.find(" at ");
+  WantedMetric metric{.quantity = rest.substr(0, at), .response = response};
+  if (at != std::string::npos)
+    metric.frequency = read_number(Config::from_text(rest.substr(at + 4), origin.file()), {.unit = "Hz"});
+  check_response_metric(response, metric.frequency, origin);
+  add(metrics, metric, response_title(response, metric.quantity, metric.frequency));
+}
+
+// "max of tip.displacement.z", in a harmonic analysis "amplitude of tip.displacement.z at 120 Hz"
 void add_named(Named<WantedMetric>& metrics, const std::string& text, bool is_harmonic) {
   const auto of = text.find(" of ");
   if (of == std::string::npos) return add(metrics, TimeReduction::end, text);
   const Config take = Config::from_text(text.substr(0, of), "--quantity " + text);
-  if (is_harmonic)
-    add(metrics, {.quantity = text.substr(of + 4), .response = Value<ResponseMetric>::read(take, {})}, text);
+  if (is_harmonic) add_response(metrics, text.substr(of + 4), Value<ResponseMetric>::read(take, {}), take);
   else add(metrics, Value<TimeReduction>::read(take, {}), text.substr(of + 4));
 }
 
 // Default metrics: the scene's expectations, otherwise the displacements of its probes, otherwise its elastic energy.
-void add_defaults(Named<WantedMetric>& metrics, const Scene& scene) {
+void add_defaults(Named<WantedMetric>& metrics, const Scene& scene, const FemModel& model) {
   const bool is_static = scene.is_static();
   for (const Expectation& e : scene.expect)
     if (e.is_eigenvalue()) add(metrics, {.mode = e.mode, .buckling = e.buckling}, e.title());
@@ -54,14 +64,12 @@ void add_defaults(Named<WantedMetric>& metrics, const Scene& scene) {
            .frequency = e.frequency},
           e.title());
   if (!metrics.empty()) return;
+  if (scene.harmonic) {
+    for (const ResponseColumn& column : response_columns(scene, model))
+      add(metrics, {.quantity = column.name, .response = ResponseMetric::peak}, "peak of " + column.name);
+    return;
+  }
   for (const auto& [name, probe] : scene.output.probes) {
-    if (scene.harmonic) {
-      for (const char* component : {"x", "y", "z"}) {
-        const std::string quantity = name + ".displacement." + component;
-        add(metrics, {.quantity = quantity, .response = ResponseMetric::peak}, "peak of " + quantity);
-      }
-      continue;
-    }
     if (!is_static) add(metrics, TimeReduction::max, name + ".displacement.magnitude");
     add(metrics, TimeReduction::end, name + ".displacement.magnitude");
   }
@@ -93,10 +101,10 @@ Design design_of(const Convergence& wanted) {
   const Scene scene = read_scene(config);
   Design design;
   for (const auto& text : wanted.quantities) add_named(design.metrics, text, scene.harmonic.has_value());
-  if (wanted.quantities.empty() && wanted.modes == 0) add_defaults(design.metrics, scene);
+  const BuiltScene built = build(scene);
+  if (wanted.quantities.empty() && wanted.modes == 0) add_defaults(design.metrics, scene, *built.model);
   for (int mode = 1; mode <= wanted.modes; ++mode)
     add(design.metrics, {.mode = mode}, fmt::format("frequency of mode {}", mode));
-  const BuiltScene built = build(scene);
   for (auto& [name, metric] : design.metrics) {
     if (metric.quantity.empty()) continue;
     if (scene.harmonic) {

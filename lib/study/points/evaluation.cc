@@ -13,6 +13,8 @@ const JsonFields<WantedMetric> json_fields<WantedMetric>{{"quantity", &WantedMet
                                                          {"at", &WantedMetric::at, Empty::null},
                                                          {"of", &WantedMetric::of, Empty::null},
                                                          {"settled_within", &WantedMetric::settled_within, Empty::null},
+                                                         {"response", &WantedMetric::response, Empty::null},
+                                                         {"frequency", &WantedMetric::frequency, Empty::null},
                                                          {"mode", &WantedMetric::mode, Empty::null},
                                                          {"along", &WantedMetric::along, Empty::null},
                                                          {"buckling", &WantedMetric::buckling, Empty::null},
