@@ -238,6 +238,7 @@ void FrequencyResponse::extend_basis(const VibrationRange& range) {
   const double beyond = kModesBeyond * range.checks.back();
   std::vector<double> errors;
   for (;;) {
+    find_coupled(range.rtol);
     error_ = 0;
     ComplexVector worst;
     for (const double frequency : range.checks) {

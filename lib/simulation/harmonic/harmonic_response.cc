@@ -75,11 +75,10 @@ Modes HarmonicResponse::find_modes() const {
   }
   if (found.zeros > 0 && found.zeros > count_rigid_freedom(model_, about_.t))
     setup_.config.at("harmonic")
-        .fail(fmt::format(
-            "round-off hides natural frequencies below {:.2g} Hz of this mesh, which is fine for a slender body: {} of "
-            "the "
-            "modes cannot be distinguished from rigid motions. Use a coarser mesh along the body, or clamp it",
-            found.resolution, found.zeros));
+        .fail(fmt::format("round-off hides natural frequencies below {:.2g} Hz, because the cells are small for the "
+                          "length of the body: "
+                          "{} modes cannot be distinguished from rigid motions. Use longer cells, or clamp the body",
+                          found.resolution, found.zeros));
   return found;
 }
 
