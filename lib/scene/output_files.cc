@@ -43,7 +43,7 @@ void refuse_cell_fields(const Config& c, const NodeFields& names) {
       c.at(i).fail(fmt::format("'{0}' is a cell field, but probes are at nodes; did you mean 'nodal_{0}'?", names[i]));
 }
 
-// `more`: names besides those of the outputs.
+// The schema allows the model's outputs at these locations, and the names in `more`.
 ValueSchema schema_of_names(const std::vector<Location>& locations, std::vector<std::string> more = {}) {
   ValueSchema name{.kind = ValueSchema::Kind::word, .names = std::move(more)};
   for (const auto& info : FemModel(FemModel::Parts{}).outputs())

@@ -154,8 +154,8 @@ TEST_P(Mixed, HasNoForceInRigidMotionsAndNoOtherMotionWithoutForce) {
   EXPECT_GT(values[6], 1e-4);
 }
 
-// A linear displacement has a uniform stress, also in distorted elements. For small strain this stress equals that of
-// the displacement formulation.
+// If the displacement is linear in the position, the stress is uniform, also in distorted elements. At small strain the
+// mixed and the displacement formulation have the same stress.
 TEST_P(Mixed, PassesThePatchTest) {
   Random random(707);
   const Mat3 A = 0.01 * random.matrix();

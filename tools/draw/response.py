@@ -5,6 +5,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from .chart import COLOURS, panels, title
+from .curves import by_vector
 from .errors import DrawError
 from .style import FAINT, save
 from .table import Table
@@ -24,15 +25,6 @@ def _natural_frequencies(folder):
         return []
     with path.open(newline="", encoding="utf-8") as file:
         return [float(row["frequency [Hz]"]) for row in csv.DictReader(file)]
-
-
-def _by_vector(table):
-    """(name, columns) of the amplitudes of each probed field."""
-    groups = {}
-    for column in table.others():
-        if not column.name.endswith(".phase"):
-            groups.setdefault(column.name.rpartition(".")[0], []).append(column)
-    return groups.items()
 
 
 def _that_answer(columns):
@@ -70,12 +62,12 @@ def draw_response(folder, path):
     """Two panels for each probed field: the amplitudes of its components, and the phase of the largest. Vertical lines
     are natural frequencies."""
     table = Table(folder / "response.csv")
-    groups = list(_by_vector(table))
+    groups = by_vector([column for column in table.others() if not column.name.endswith(".phase")])
     if table.axis.name != "frequency" or not groups:
         raise DrawError(f"{folder / 'response.csv'}: not a response of a harmonic analysis")
     figure, axes = panels([2.6, 1.1] * len(groups), right=0.9)
     frequencies = table.axis.values
-    for (name, columns), amplitude, phase in zip(groups, axes[::2], axes[1::2]):
+    for ((name, _), columns), amplitude, phase in zip(groups.items(), axes[::2], axes[1::2]):
         _draw_phase(phase, frequencies, table, _draw_amplitude(amplitude, frequencies, name, columns))
     for natural in _natural_frequencies(folder):
         if frequencies[0] <= natural <= frequencies[-1]:

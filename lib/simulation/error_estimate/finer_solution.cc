@@ -177,9 +177,10 @@ class Subspace {
     MV_.col(count_) = mass_times(model_, V_.col(count_));
     ++count_;
   }
-  // Rayleigh-Ritz values, ascending; the low ones are the more accurate. `shift` s: K + s M is positive definite. The
-  // eigenvalues 1/(lambda + s) of the inverse problem are computed, because those of K have an error relative to the
-  // largest one, which would hide low frequencies if there are many modes.
+  // Rayleigh-Ritz values lambda, ascending. Precondition: K + s M is positive definite, with s = `shift`. A dense
+  // solver makes an error proportional to the largest eigenvalue. For K phi = lambda M phi with many modes that error
+  // would exceed the lowest lambda. The inverse problem M phi = mu (K + s M) phi has its largest mu = 1/(lambda + s) at
+  // the lowest lambda, which is therefore accurate.
   Vector eigenvalues(double shift) const {
     const auto V = V_.leftCols(count_);
     const Eigen::MatrixXd M = V.transpose() * MV_.leftCols(count_);

@@ -6,7 +6,7 @@
 //
 // phi . K phi is computed as twice the elastic energy of a small displacement along phi. The energy is a sum of
 // positive terms and has few rounding errors. The product K phi would be less accurate: its relative error is about
-// machine epsilon times the square of the mesh's highest frequency over that of the mode.
+// machine epsilon times (f_max / f)^2, with the highest frequency f_max of the mesh and the frequency f of the mode.
 //
 // dK/dp and dM/dp are differences of fourth order: the scene is built again with the parameter changed by -2, -1, 1 and
 // 2 steps of 0.3 % (0.3 degrees), or of less if the scene refuses such a value. Any number of the scene may be a
