@@ -94,7 +94,8 @@ with_sanitizers() {
 
 # Uses the folder of the sanitizers' build, so that only files that depend on the option are compiled.
 without_gpl() {
-  configure ci-without-gpl asan -B build/ci/build -D ORTHODYN_GPL=OFF -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT= \
+  configure ci-without-gpl asan -B build/ci/build -D ORTHODYN_GPL=OFF -D ORTHODYN_CERES=OFF -D ORTHODYN_MPI=OFF \
+    -D ORTHODYN_BUILT= \
     -D ORTHODYN_NOT_SANITIZED= -D ORTHODYN_PROCESSOR=native
   build ci/build --target orthodyn_cli orthodyn_linear_tests
   run_tests ci/build -R '^linear' --no-tests=error

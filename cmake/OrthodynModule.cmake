@@ -101,7 +101,7 @@ function(orthodyn_library)
     yaml-cpp muparser::muparser Udunits2::udunits2 pugixml::pugixml ZLIB::ZLIB TBB::tbb SuiteSparse::cholmod SuiteSparse::klu
     ${CMAKE_DL_LIBS}
     SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
-    SUNDIALS::sunmatrixsparse)
+    SUNDIALS::sunmatrixsparse $<$<BOOL:${ORTHODYN_CERES}>:Ceres::ceres>)
   if(ORTHODYN_SANITIZE)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
   endif()

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
@@ -49,14 +50,30 @@ void check_names(const CsvTable& table, const std::string& where, const std::vec
     if (!table.has(name)) fail(fmt::format("column '{}' is missing", name));
 }
 
-void add_row(CsvTable& table, const std::vector<std::string>& row, int line) {
+void refuse_repeated_names(const CsvTable& table, const std::string& where) {
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    double number;
+    if (parse(table.names[i], number))
+      throw ConfigError(where, fmt::format("found the number {} where a column name belongs; the first line names the "
+                                           "columns",
+                                           table.names[i]));
+    if (table.column(table.names[i]) != i)
+      throw ConfigError(where, fmt::format("column '{}' occurs twice", table.names[i]));
+  }
+}
+
+enum class Gaps { refused, allowed };
+
+bool is_gap(const std::string& entry) { return entry.empty() || entry == "nan" || entry == "NaN"; }
+
+void add_row(CsvTable& table, const std::vector<std::string>& row, int line, Gaps gaps) {
   const auto where = fmt::format("{}:{}", table.path, line);
   if (row.size() != table.names.size())
     throw ConfigError(where, fmt::format("found {} entries where {} columns are named ({})", row.size(),
                                          table.names.size(), join(table.names, ",")));
   for (std::size_t i = 0; i < row.size(); ++i) {
-    double value;
-    if (!parse(row[i], value))
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (!(gaps == Gaps::allowed && is_gap(row[i])) && !parse(row[i], value))
       throw ConfigError(
           where, fmt::format("column {}: expected a finite number, found '{}'", table.names[i], row[i].substr(0, 60)));
     table.values.push_back(value);
@@ -79,8 +96,10 @@ int CsvTable::index(std::size_t row, const std::string& name) const {
   return static_cast<int>(given);
 }
 
-CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
-                  const std::vector<std::string>& optional) {
+namespace {
+
+template <class CheckNames>
+CsvTable read(const FilePath& file, Gaps gaps, const CheckNames& check) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   std::ifstream in(file.path);
   if (!in) throw ConfigError(file.where, "cannot be read: " + file.path);
@@ -92,13 +111,23 @@ CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required
     if (content.empty() || content[0] == '#') continue;
     if (table.names.empty()) {
       table.names = entries(text);
-      check_names(table, fmt::format("{}:{}", file.path, line), required, optional);
+      check(table, fmt::format("{}:{}", file.path, line));
     } else {
-      add_row(table, entries(text), line);
+      add_row(table, entries(text), line, gaps);
     }
   }
   if (table.rows() == 0) throw ConfigError(file.where, fmt::format("{} has no rows of numbers", file.path));
   return table;
 }
+
+}  // namespace
+
+CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
+                  const std::vector<std::string>& optional) {
+  return read(file, Gaps::refused,
+              [&](const CsvTable& table, const std::string& where) { check_names(table, where, required, optional); });
+}
+
+CsvTable read_csv_with_gaps(const FilePath& file) { return read(file, Gaps::allowed, refuse_repeated_names); }
 
 }  // namespace orthodyn

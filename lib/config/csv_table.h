@@ -32,4 +32,7 @@ struct CsvTable {
 CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional = {});
 
+// Reads a file with any columns. Empty entries, "nan" and "NaN" are NaN. Otherwise as read_csv().
+CsvTable read_csv_with_gaps(const FilePath& file);
+
 }  // namespace orthodyn

@@ -38,12 +38,12 @@ def errors(text, schema):
     return list(jsonschema.Draft7Validator(schema).iter_errors(yaml.load(text, Loader)))
 
 
-KINDS = ("scene", "comparison", "sweep", "stability")
+KINDS = ("scene", "comparison", "sweep", "fit", "stability")
 
 
 def shipped(kind):
     folders = {"scene": ["scenes", "cases", "benchmarks", "vega", "stability/cases"], "comparison": ["comparisons"],
-               "sweep": ["sweeps"], "stability": ["stability"]}[kind]
+               "sweep": ["sweeps"], "fit": ["fits"], "stability": ["stability"]}[kind]
     return [p for folder in folders for p in sorted((ROOT / "configs" / folder).glob("*.yaml"))]
 
 

@@ -106,11 +106,12 @@ def _all(args):
 
 def _report(args):
     from .converge import reading as converge, write_convergence_report
+    from .fit import reading as fit, write_fit_report
     from .report import write_report
     from .stability import reading as stability, write_stability_report
     from .sweep import reading as sweep, write_sweep_report
     write = {stability.KIND.file: write_stability_report, sweep.KIND.file: write_sweep_report,
-             converge.KIND.file: write_convergence_report}
+             converge.KIND.file: write_convergence_report, fit.KIND.file: write_fit_report}
     found = [name for name in write if (Path(args.result) / name).is_file()]
     yield from (write[found[0]] if found else write_report)(args.result, args.out)
 

@@ -142,9 +142,10 @@ def _parser():
     compare = commands.add_parser("compare", help=both, description=both)
     compare.add_argument("results", metavar="RESULT", nargs="+", help="result folders of `orthodyn run`")
     compare.add_argument("--out", type=Path, metavar="FOLDER", help="default: the pictures of the last RESULT")
-    page = "HTML report and figures for papers of a comparison, sweep, convergence study or stability matrix."
+    page = "HTML report and figures for papers of a comparison, sweep, convergence study, stability matrix or fit."
     report = commands.add_parser("report", help=page, description=page)
-    report.add_argument("result", metavar="RESULT", help="result folder of `orthodyn compare`, `sweep`, `converge` or `stability`")
+    report.add_argument("result", metavar="RESULT", help="result folder of `orthodyn compare`, `sweep`, `converge`, "
+                                                           "`stability` or `fit`")
     report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
     axes = commands.add_parser("axes", help="Material axes on the surface and in two sections, from axes.vtu.",
                                description="Material axes on the surface and in two sections, as PNG.")

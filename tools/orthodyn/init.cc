@@ -176,6 +176,28 @@ frames: {color: displacement}   # a picture of each point at the end; leave it o
 limits: {seconds: 60}      # of each point
 )";
 
+constexpr const char* kFit = R"(# Which stiffnesses explain what was measured?
+# Run it with `orthodyn fit {file}`; its report is an HTML page.
+title: What is fitted
+description: What was measured, how, and on which body.
+
+experiments:               # one or several, by name
+  plate:
+    scene: scene.yaml      # or {file: scene.yaml, set: {mesh.cells: [20, 2, 1]}}
+    measured:              # each value with its standard deviation: deviation, or relative (0.01 for 1 %)
+      - {frequencies: [16.2 Hz, null, 101 Hz], relative: 0.01}      # the lowest; null: not measured
+      # - {quantity: tip.displacement.z, value: -4.1 mm, deviation: 0.1 mm}                     # static
+      # - {quantity: tip.displacement.z, at: 0.2 s, value: -4.1 mm, deviation: 0.1 mm}          # motion
+      # - {quantity: tip.displacement.z, table: tip.csv, column: "z [mm]", deviation: 0.1 mm}   # over time
+
+parameters:                # numbers of the scene by their paths; see orthodyn list fit
+  E1: materials.wood.young.0
+  G12: {path: materials.wood.g12, start: 0.6 GPa}   # also: lower, upper, prior: {value, deviation}
+
+# candidates:              # what to measure next? values are not needed
+#   torsion: {scene: scene.yaml, measured: [{mode: 3, deviation: 1 Hz}]}
+)";
+
 constexpr const char* kStability = R"(# Which integrators solve which scenes reliably?
 # Run it with `orthodyn stability {file}`; its report is an HTML page.
 title: What is tried
@@ -198,6 +220,7 @@ const std::map<std::string, std::string>& starts() {
                                                          {"harmonic", head + kHarmonicAnalysis + body + kVibration},
                                                          {"comparison", kComparison},
                                                          {"sweep", kSweep},
+                                                         {"fit", kFit},
                                                          {"stability", kStability}};
   return all;
 }
@@ -251,7 +274,7 @@ int init(const InitArguments& arguments) {
 }
 
 void declare(InitArguments& arguments, CommandOptions& options) {
-  options.value("kind", arguments.kind, "Kind of file: scene, static, harmonic, comparison, sweep or stability.")
+  options.value("kind", arguments.kind, "Kind of file: scene, static, harmonic, comparison, sweep, fit or stability.")
       .required();
   options.value("file", arguments.file, "Name of the file; default KIND.yaml.").type("FILE.yaml");
   options
@@ -268,7 +291,8 @@ const CommandRegistration init_command(
   orthodyn init scene my.yaml
   orthodyn init scene part.yaml --from part.inp
   orthodyn init static part.yaml --from part.inp --units mm_t_s
-  orthodyn init sweep)"},
+  orthodyn init sweep
+  orthodyn init fit)"},
     declare, init);
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "lib/config/config.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
+#include "lib/study/fit/fit.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep.h"
 
@@ -60,6 +61,7 @@ const std::vector<InputKind>& input_kinds() {
        Scene::spec().keys()},
       {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
       {"sweep", "Metrics of a scene for varied parameters, for `orthodyn sweep`.", Sweep::spec().keys()},
+      {"fit", "Parameters of scenes from measured values, for `orthodyn fit`.", study::fit::Fit::spec().keys()},
       {"stability", "Grades of integrators on hard cases, for `orthodyn stability`.", Stability::spec().keys()},
   };
   return all;

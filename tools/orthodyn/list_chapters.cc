@@ -12,6 +12,7 @@
 #include "lib/scene/quantity.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
+#include "lib/study/fit/fit.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep.h"
 
@@ -144,6 +145,17 @@ void list_sweep() {
   print_entry("limits", "Limits of each point of a sweep.", Limits::spec().keys());
 }
 
+void list_fit() {
+  using namespace study::fit;
+  print_entry("fit", "The keys of a fit, for `orthodyn fit`.", Fit::spec().keys());
+  print_entry("experiments.<name>", "A scene with measured values; candidates likewise.", Experiment::spec().keys());
+  print_entry("measured.<n>", "One measured value, natural frequencies, or a table.", Measurement::spec().keys());
+  print_entry("parameters.<name>", "A number of the scenes that is to be found, as a section.",
+              Parameter::spec().keys());
+  print_entry("prior", "What is known of a parameter without the measurements.", Prior::spec().keys());
+  print_entry("limits", "Limits of each run of a fit.", Limits::spec().keys());
+}
+
 void list_stability() {
   print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
   print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
@@ -202,6 +214,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& list_chapters(
       {"expect", list_expectations},
       {"comparison", list_comparison},
       {"sweep", list_sweep},
+      {"fit", list_fit},
       {"stability", list_stability},
       {"fields", list_fields},
       {"quantities", list_quantities},

@@ -181,7 +181,7 @@ Schema document(const std::vector<InputKind>& kinds) {
     body = writer.section(kinds.front().keys);
   } else {  // told apart by a key that only this kind has
     const std::map<std::string, std::string> marks{
-        {"comparison", "scenes"}, {"sweep", "quantities"}, {"stability", "cases"}};
+        {"comparison", "scenes"}, {"sweep", "quantities"}, {"fit", "experiments"}, {"stability", "cases"}};
     body = writer.section(kinds.front().keys);
     for (const auto& kind : kinds)
       if (const auto mark = marks.find(kind.name); mark != marks.end())
@@ -211,7 +211,7 @@ int print_schema(const SchemaArguments& arguments) {
 }
 
 void declare(SchemaArguments& arguments, CommandOptions& options) {
-  options.value("kind", arguments.kind, "scene, comparison, sweep or stability; default: one schema for all.");
+  options.value("kind", arguments.kind, "scene, comparison, sweep, fit or stability; default: one schema for all.");
 }
 
 const CommandRegistration schema_command(

@@ -18,10 +18,11 @@ struct Mark {
   const char *key, *words, *command;
 };
 
-constexpr std::array<Mark, 4> kMarks{{{InputFile::scene, "mesh", "a scene", "run"},
+constexpr std::array<Mark, 5> kMarks{{{InputFile::scene, "mesh", "a scene", "run"},
                                       {InputFile::comparison, "scenes", "a comparison", "compare"},
                                       {InputFile::sweep, "quantities", "a sweep", "sweep"},
-                                      {InputFile::stability, "cases", "a file of hard cases", "stability"}}};
+                                      {InputFile::stability, "cases", "a file of hard cases", "stability"},
+                                      {InputFile::fit, "experiments", "a fit", "fit"}}};
 
 void change_integrator(Config& scene, const std::string& name, std::vector<std::string>& left_out) {
   const auto& known = Registry<IntegratorChoice>::entries();

@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 // The kinds of YAML input files, told apart by a key that no other kind has.
-enum class InputFile { scene, comparison, sweep, stability };
+enum class InputFile { scene, comparison, sweep, stability, fit };
 
 // Throws ConfigError for a file of another kind; the message names the command for that kind.
 void refuse_other_kinds(const Config& config, InputFile wanted);

@@ -8,16 +8,13 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/core/errors.h"
 #include "lib/mesh/selection.h"
 #include "lib/simulation/output/files.h"
-#include "lib/simulation/statics/static_problem.h"
+#include "lib/simulation/sensitivity/changed_models.h"
 
 namespace orthodyn {
 
 namespace {
-
-constexpr double kFirstStep = 0.3, kLastStep = 1e-4;  // shares of SceneParameter::usual_change()
 
 // The modes first, ..., first + count - 1, whose frequencies are equal to round-off.
 struct Cluster {
@@ -39,38 +36,13 @@ std::vector<Cluster> clusters_of(const Modes& modes) {
   return clusters;
 }
 
-// Whether the scene can be read with the parameter at two steps h to both sides.
-bool allows(const Config& scene, const SceneParameter& parameter, double h) {
-  try {
-    for (const int steps : {-2, 2}) read_scene(parameter.changed(scene, steps * h));
-    return true;
-  } catch (const ConfigError&) {
-    return false;
-  }
-}
-
-// Step of the differences, in SI units of the parameter.
-double step_of(const Config& scene, const SceneParameter& parameter) {
-  double h = kFirstStep * parameter.usual_change();
-  while (!allows(scene, parameter, h)) {
-    h /= 2;
-    if (h < kLastStep * parameter.usual_change()) read_scene(parameter.changed(scene, 2 * h));  // throws
-    if (h < kLastStep * parameter.usual_change() / 2) read_scene(parameter.changed(scene, -2 * h));
-  }
-  return h;
-}
-
-// Quadratic forms of stiffness and mass of the scene at rest.
+// Quadratic forms of the stiffness and the mass of a model at rest.
 class Forms {
  public:
-  Forms(const Config& scene, const FemModel& original, double t, const SceneParameter& parameter) {
-    const Scene changed = read_scene(scene);
-    built_ = build(changed.is_static() ? changed : at_rest(changed));
-    if (model().num_dofs() != original.num_dofs() || model().pattern().row != original.pattern().row)
-      throw ConfigError(parameter.path(), "changes the connections of the mesh; choose another parameter");
-    rest_ = {t, Vector::Zero(model().num_dofs()), Vector::Zero(model().num_dofs()), 0};
+  Forms(const FemModel& model, double t)
+      : model_(model), rest_{t, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs()), 0} {
     at_rest_ = energy(rest_.q);
-    small_ = kSmall * bounding_box(model().parts().mesh).size().minCoeff();
+    small_ = kSmall * bounding_box(model.parts().mesh).size().minCoeff();
   }
 
   // x . K x.
@@ -82,7 +54,7 @@ class Forms {
   // x . M x.
   double mass(const Vector& x) const {
     Vector product(x.size());
-    model().multiply_mass(x, product);
+    model_.multiply_mass(x, product);
     return x.dot(product);
   }
 
@@ -90,10 +62,9 @@ class Forms {
   // Displacements over the smallest side of the body: the error due to large rotations is this squared.
   static constexpr double kSmall = 1e-7;
 
-  const FemModel& model() const { return *built_.model; }
-  double energy(const Vector& q) const { return model().evaluate("energy.elastic", {rest_.t, q, rest_.v, 0})[0]; }
+  double energy(const Vector& q) const { return model_.evaluate("energy.elastic", {rest_.t, q, rest_.v, 0})[0]; }
 
-  BuiltScene built_;
+  const FemModel& model_;
   State rest_;
   double at_rest_ = 0, small_ = 0;
 };
@@ -114,15 +85,15 @@ Eigen::MatrixXd form_of(const Forms& forms, const Modes& modes, const Cluster& c
   return form;
 }
 
+// `count`: number of modes whose derivatives are wanted; `modes` may have more.
 FrequencySensitivity sensitivity(const Config& scene, const FemModel& model, double t, const Modes& modes,
                                  std::size_t count, const SceneParameter& parameter) {
-  const double h = step_of(scene, parameter);
-  const auto at = [&](int steps) { return Forms(parameter.changed(scene, steps * h), model, t, parameter); };
-  const Forms before_2 = at(-2), before = at(-1), after = at(1), after_2 = at(2);
+  const ChangedModels changed_models(scene, model, parameter);
   FrequencySensitivity out{parameter, std::vector<double>(count, std::numeric_limits<double>::quiet_NaN())};
   for (const Cluster& cluster : clusters_of(modes)) {
-    const auto of = [&](const Forms& forms) { return form_of(forms, modes, cluster); };
-    const Eigen::MatrixXd slope = (8 * (of(after) - of(before)) - (of(after_2) - of(before_2))) / (12 * h);
+    if (cluster.first >= count) break;
+    const Eigen::MatrixXd slope = changed_models.derivative(
+        [&](const ChangedModels::Changed& changed) { return form_of(Forms(changed.model(), t), modes, cluster); });
     const Eigen::VectorXd slopes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(slope).eigenvalues();
     for (std::size_t i = 0; i < cluster.count && cluster.first + i < count; ++i) {
       const Mode& mode = modes.modes[cluster.first + i];
@@ -133,12 +104,12 @@ FrequencySensitivity sensitivity(const Config& scene, const FemModel& model, dou
   return out;
 }
 
-// The modes of the analysis. If the last of them may be one of several with its frequency, with more modes.
-Modes with_whole_clusters(const ModalAnalysis& analysis) {
+// `modes`. If the last of them may be one of several with its frequency, with more modes.
+Modes with_whole_clusters(const FemModel& model, const State& about, const Modes& modes) {
   constexpr int kMore = 4;
-  const auto count = static_cast<int>(analysis.modes().modes.size());
-  const int more = std::min(count + kMore, analysis.model().num_dofs());
-  return more > count ? natural_modes(analysis.model(), analysis.about(), more) : analysis.modes();
+  const auto count = static_cast<int>(modes.modes.size());
+  const int more = std::min(count + kMore, model.num_dofs());
+  return more > count ? natural_modes(model, about, more) : modes;
 }
 
 }  // namespace
@@ -147,20 +118,25 @@ std::vector<SceneParameter> scene_parameters(const Config& scene, const std::vec
   std::vector<SceneParameter> parameters;
   for (const std::string& path : paths) {
     parameters.emplace_back(scene, path);
-    step_of(scene, parameters.back());
+    require_changeable(scene, parameters.back());
   }
   return parameters;
 }
 
-std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const ModalAnalysis& analysis,
+std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const FemModel& model, const State& rest,
+                                                          const Modes& modes,
                                                           const std::vector<SceneParameter>& parameters) {
   std::vector<FrequencySensitivity> out;
   if (parameters.empty()) return out;
-  const Modes modes = with_whole_clusters(analysis);
+  const Modes whole = with_whole_clusters(model, rest, modes);
   for (const SceneParameter& parameter : parameters)
-    out.push_back(
-        sensitivity(scene, analysis.model(), analysis.about().t, modes, analysis.modes().modes.size(), parameter));
+    out.push_back(sensitivity(scene, model, rest.t, whole, modes.modes.size(), parameter));
   return out;
+}
+
+std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const ModalAnalysis& analysis,
+                                                          const std::vector<SceneParameter>& parameters) {
+  return frequency_sensitivities(scene, analysis.model(), analysis.about(), analysis.modes(), parameters);
 }
 
 void write_sensitivities(const std::filesystem::path& folder, const ModalAnalysis& analysis,

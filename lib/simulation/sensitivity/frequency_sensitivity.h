@@ -8,9 +8,8 @@
 // positive terms and has few rounding errors. The product K phi would be less accurate: its relative error is about
 // machine epsilon times (f_max / f)^2, with the highest frequency f_max of the mesh and the frequency f of the mode.
 //
-// dK/dp and dM/dp are differences of fourth order: the scene is built again with the parameter changed by -2, -1, 1 and
-// 2 steps of 0.3 % (0.3 degrees), or of less if the scene refuses such a value. Any number of the scene may be a
-// parameter if its changes keep the connections of the mesh. No eigenproblem of a changed scene is solved.
+// dK/dp and dM/dp are differences between changed models (changed_models.h). No eigenproblem of a changed scene is
+// solved.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +31,12 @@ struct FrequencySensitivity {
 // not allow it to change.
 std::vector<SceneParameter> scene_parameters(const Config& scene, const std::vector<std::string>& paths);
 
-// `scene`: the resolved input of the analysis, which must be about the rest shape. Throws ConfigError if a parameter
-// changes the mesh's connections or the held coordinates.
+// `scene`: the resolved input of `model`; `rest`: its rest shape, about which the modes are. Throws ConfigError if a
+// parameter changes the mesh's connections or the held coordinates.
+std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const FemModel& model, const State& rest,
+                                                          const Modes& modes,
+                                                          const std::vector<SceneParameter>& parameters);
+// Likewise. Precondition: the analysis is about the rest shape.
 std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, const ModalAnalysis& analysis,
                                                           const std::vector<SceneParameter>& parameters);
 

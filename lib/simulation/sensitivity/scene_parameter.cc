@@ -42,7 +42,7 @@ Config value_at(const Config& scene, const std::string& path) {
   return at;
 }
 
-bool is_angle(const std::string& unit) {
+bool is_unit_of_angles(const std::string& unit) {
   if (unit.empty() || unit == "%") return false;
   try {
     check_dimension(unit, "rad");
@@ -68,7 +68,7 @@ SceneParameter::SceneParameter(const Config& scene, const std::string& path) : p
     } catch (const std::invalid_argument&) {
       value.fail(fmt::format("a parameter must be a number, found {}", value.shown()));
     }
-    is_angle_ = is_angle(unit_);
+    is_angle_ = is_unit_of_angles(unit_);
   }
   if (number_ == 0 && !is_angle_)
     value.fail(

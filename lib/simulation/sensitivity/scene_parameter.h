@@ -15,6 +15,9 @@ class SceneParameter {
 
   const std::string& path() const { return path_; }
   double value() const { return number_ * factor_; }  // in SI units
+  const std::string& unit() const { return unit_; }   // as written; "" for a number without a unit
+  double factor() const { return factor_; }           // from unit() to SI
+  bool is_angle() const { return is_angle_; }
 
   // A usual change in SI units, and its text: 1 % of the value, or 1 degree of an angle.
   double usual_change() const;

@@ -9,6 +9,7 @@
 #include "lib/simulation/harmonic/response_columns.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/scene_file.h"
+#include "lib/study/inputs/refined_mesh.h"
 
 namespace orthodyn::study::converge {
 
@@ -78,18 +79,8 @@ void add_defaults(Named<WantedMetric>& metrics, const Scene& scene, const FemMod
 
 Level level_of(const Convergence& wanted, int order, int level) {
   Config config = read_scene_file(wanted.file, {.set = wanted.set}).resolving();
-  const Config mesh = config.at("mesh");
   config.set("mesh.order", static_cast<long>(order));
-  const int factor = 1 << level;
-  if (mesh.has("cells")) {
-    for (std::size_t i = 0; i < mesh.at("cells").size(); ++i)
-      config.set(fmt::format("mesh.cells.{}", i), mesh.at("cells").at(i).integer() * factor);
-  } else if (mesh.has("file")) {
-    const long own = mesh.has("refine") ? mesh.at("refine").integer() : 0;
-    config.set("mesh.refine", own + level);
-  } else {
-    mesh.fail("has neither 'cells' nor 'file', so it cannot be refined");
-  }
+  refine_mesh(config, level);
   read_scene(config);
   return {order, level, point_scene(config, fmt::format("order {}, level {}", order, level + 1))};
 }

@@ -12,6 +12,8 @@
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/run/several_ranks.h"
+#include "lib/simulation/sensitivity/equilibrium_sensitivity.h"
+#include "lib/simulation/sensitivity/frequency_sensitivity.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
@@ -134,6 +136,7 @@ class Evaluation {
     for (std::size_t k = 0; k < names.size(); ++k)
       keep(names[k], found.chosen[k] ? found.modes.modes[*found.chosen[k]].frequency() : std::nan(""),
            wanted[k].unit_of(""));
+    if (!about_equilibrium) find_derivatives(names, found, *built.model, about);
     if (!input_.mesh_error || found.modes.modes.empty()) return;
     const Stopwatch watch;
     const FrequencyErrors errors = frequency_errors_of(scene, *built.model, about, found.modes);
@@ -143,6 +146,19 @@ class Evaluation {
     diagnostics_cpu_ += watch.cpu();
     diagnostics_wall_ += watch.wall();
   }
+
+  void find_derivatives(const std::vector<std::string>& names, const WantedModes& found, const FemModel& model,
+                        const State& rest) {
+    const auto slopes = frequency_sensitivities(config_, model, rest, found.modes, parameters());
+    if (slopes.empty()) return;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (!found.chosen[k]) continue;
+      std::vector<double>& own = result_.derivatives.emplace_back(names[k], std::vector<double>{}).second;
+      for (const FrequencySensitivity& slope : slopes) own.push_back(slope.derivatives[*found.chosen[k]]);
+    }
+  }
+
+  std::vector<SceneParameter> parameters() const { return scene_parameters(config_, input_.parameters); }
 
   void find_buckling(const Scene& scene, const BuiltScene& built) {
     int count = 0;
@@ -210,6 +226,7 @@ class Evaluation {
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q)
       keep(wanted.metrics[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
+    find_derivatives(setup, *problem.path, state, wanted);
     MeshErrorRecorder mesh_error(0);
     if (input_.mesh_error) mesh_error.observe(observed);
     keep(mesh_error);
@@ -220,6 +237,23 @@ class Evaluation {
       if (!found.locking_risk.empty()) result_.warnings.push_back(locking_warning(found.locking_risk));
     }
     draw(*setup.built.model, state);
+  }
+
+  void find_derivatives(const Setup& setup, const LoadPath& path, const State& equilibrium,
+                        const WantedQuantities& wanted) {
+    const auto all = parameters();
+    if (all.empty()) return;
+    const EquilibriumSensitivity sensitivity(setup.config, setup.scene, *setup.built.model, path, equilibrium);
+    std::vector<std::string> names;
+    for (const auto* metric : wanted.metrics) {
+      names.push_back(metric->second.quantity);
+      result_.derivatives.emplace_back(metric->first, std::vector<double>{});
+    }
+    auto* const first = &result_.derivatives[result_.derivatives.size() - names.size()];
+    for (const SceneParameter& parameter : all) {
+      const auto slopes = sensitivity.derivatives(parameter, names);
+      for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[i]);
+    }
   }
 
   void find_response(const Setup& setup) {

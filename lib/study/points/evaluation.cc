@@ -28,7 +28,8 @@ const JsonFields<EvaluationInput> json_fields<EvaluationInput>{
     {"frame_at", &EvaluationInput::frame_at, Empty::null},
     {"seconds", &EvaluationInput::seconds},
     {"code", &EvaluationInput::code},
-    {"mesh_error", &EvaluationInput::mesh_error, Empty::omitted}};
+    {"mesh_error", &EvaluationInput::mesh_error, Empty::omitted},
+    {"parameters", &EvaluationInput::parameters, Empty::omitted}};
 
 template <>
 const JsonFields<EvaluationCost> json_fields<EvaluationCost> = [] {
@@ -52,6 +53,7 @@ const JsonFields<EvaluationResult> json_fields<EvaluationResult>{
     {"frame", &EvaluationResult::frame, Empty::omitted},
     {"mesh_error", &EvaluationResult::mesh_error},
     {"metric_errors", &EvaluationResult::metric_errors, Empty::omitted},
+    {"derivatives", &EvaluationResult::derivatives, Empty::omitted},
     {"kinematics", &EvaluationResult::kinematics, Empty::omitted},
     {"warnings", &EvaluationResult::warnings, Empty::omitted}};
 

@@ -18,11 +18,12 @@ namespace orthodyn::study {
 
 struct EvaluationInput {
   Named<WantedMetric> metrics;
-  std::optional<std::string> frame = {};  // the field shown by the point's picture; empty for no picture
-  std::optional<double> frame_at = {};    // time of the picture, s; empty for the end
-  double seconds = 60;                    // wall time limit of the integration, s
-  std::string code;                       // fingerprint of the program that must do the work
-  bool mesh_error = false;                // also estimate the mesh error
+  std::optional<std::string> frame = {};     // the field shown by the point's picture; empty for no picture
+  std::optional<double> frame_at = {};       // time of the picture, s; empty for the end
+  double seconds = 60;                       // wall time limit of the integration, s
+  std::string code;                          // fingerprint of the program that must do the work
+  bool mesh_error = false;                   // also estimate the mesh error
+  std::vector<std::string> parameters = {};  // numbers of the scene for derivatives of the metrics, by path
 };
 
 // Title, unit, closed form and scale of a metric are left out, because they do not affect the computation.
@@ -44,7 +45,10 @@ struct EvaluationResult {
   std::string frame;                 // file of the picture's state, relative to the point's folder; "" for none
   std::optional<double> mesh_error;  // MeshError::relative, of the motion or the equilibrium
   Named<double> metric_errors;       // estimated relative excess of natural frequencies
-  std::string kinematics;            // choice made for `kinematics: auto` and its reason; "" for other kinematics
+  // By metric: its derivative with respect to each of the input's parameters, in SI units. Quantities in equilibrium
+  // and natural frequencies about rest have derivatives, other metrics have none.
+  Named<std::vector<double>> derivatives;
+  std::string kinematics;  // choice made for `kinematics: auto` and its reason; "" for other kinematics
   std::vector<std::string> warnings;
 };
 

@@ -23,7 +23,7 @@ from .model import Model, Modes
 from .problem import Problem, Solution
 from .result import Result
 from .scene import OrthodynWarning, Scene
-from .studies import Study, compare, converge, stability, sweep
+from .studies import Study, compare, converge, fit, stability, sweep
 
 __all__ = ["ConfigError", "Model", "Modes", "OrthodynWarning", "Problem", "RecoverableError", "Result", "RunError", "Scene",
-           "Solution", "Study", "__version__", "compare", "converge", "stability", "sweep"]
+           "Solution", "Study", "__version__", "compare", "converge", "fit", "stability", "sweep"]

@@ -128,6 +128,21 @@ def converge(study: str | Path | Scene, out: str | Path | None = None, *, jobs: 
     return _run(_Call("converge", out, quiet, retry, jobs, ranks), study)
 
 
+def fit(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
+        quiet: bool = False) -> Study:
+    """Finds numbers of scenes that explain measured values:
+
+        orthodyn.fit({"title": "Plate",
+                      "experiments": {"plate": {"scene": scene,
+                                                "measured": [{"frequencies": [51.2, 80.4, 117], "relative": 0.005}]}},
+                      "parameters": {"E1": "materials.spruce.young.0", "G12": "materials.spruce.g12"}})
+
+    The table has a row per parameter: value, standard deviation, and 95 % interval. `data.csv` in the folder has the
+    data beside the computed values. `jobs`: concurrent runs, default the number of processors.
+    """
+    return _run(_Call("fit", out, quiet, retry, jobs), study)
+
+
 def program() -> str:
     """Path of the program `orthodyn`: that of this package, otherwise the first on the PATH."""
     own = [HERE / "bin" / "orthodyn", *(parent / "orthodyn" for parent in HERE.parents[:2]),  # of a wheel, a build tree,
@@ -223,8 +238,10 @@ def _name(study: Mapping[str, Any]) -> str:
     return re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "")).lower()).strip("_") or "study"
 
 
-_FOLDER = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence"}
-_TABLE = {"compare": "compare.csv", "sweep": "sweep.csv", "stability": "stability.csv", "converge": "convergence.csv"}
+_FOLDER = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence",
+           "fit": "fits"}
+_TABLE = {"compare": "compare.csv", "sweep": "sweep.csv", "stability": "stability.csv", "converge": "convergence.csv",
+          "fit": "parameters.csv"}
 
 
 def _start(call: _Call, file: str, folder: Path, named: Callable[[str], str]) -> None:

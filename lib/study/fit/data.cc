@@ -1,0 +1,181 @@
+#include "lib/study/fit/data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "lib/config/csv_table.h"
+#include "lib/core/spelling.h"
+#include "lib/core/units.h"
+#include "lib/scene/build.h"
+#include "lib/scene/quantity.h"
+#include "lib/simulation/harmonic/response_columns.h"
+
+namespace orthodyn::study::fit {
+
+namespace {
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+// "mm" of "z [mm]"; "" without brackets.
+std::string unit_in(const std::string& heading) {
+  const auto open = heading.rfind('['), close = heading.rfind(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return "";
+  return heading.substr(open + 1, close - open - 1);
+}
+
+// Factor from `unit` to `si`; 1 for "".
+double factor_of(const std::string& unit, const std::string& si, const SourceLocation& origin) {
+  if (unit.empty()) return 1;
+  try {
+    check_dimension(unit, si);
+    return si_factor(unit);
+  } catch (const std::invalid_argument& e) {
+    origin.fail(fmt::format("unit '{}': {}", unit, e.what()));
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(const Config& config) : scene_(read_scene(config)), built_(build(scene_)) {}
+
+  std::vector<Datum> read(const Experiment& experiment) {
+    for (std::size_t i = 0; i < experiment.measured.size(); ++i) {
+      entry_ = i;
+      add(experiment.measured[i]);
+    }
+    return std::move(data_);
+  }
+
+ private:
+  void add(const Measurement& m) {
+    if (!m.frequencies.empty()) add_frequencies(m);
+    else if (m.table) add_table(m);
+    else add_value(m);
+  }
+
+  void add_frequencies(const Measurement& m) {
+    for (std::size_t k = 0; k < m.frequencies.size(); ++k) {
+      const Config given = parsed(m.frequencies[k]);
+      if (given.is_null()) continue;
+      double value = 0;
+      try {
+        value = read_number(given, {.unit = "Hz", .range = kPositive});
+      } catch (const ConfigError& e) {
+        m.origin.fail(fmt::format("frequencies: number {}: {}", k + 1, e.what()));
+      }
+      add_frequency(m, static_cast<int>(k) + 1, value);
+    }
+  }
+
+  void add_frequency(const Measurement& m, int mode, double value) {
+    WantedMetric metric{.mode = mode};
+    push(m, metric, fmt::format("frequency of mode {}", mode), value, "Hz", "Hz");
+    data_.back().has_derivatives = true;
+  }
+
+  void add_value(const Measurement& m) {
+    if (m.mode) {
+      if (m.value) m.value->require("Hz", m.origin);
+      return add_frequency(m, *m.mode, m.value ? m.value->si() : kNotANumber);
+    }
+    const WantedMetric metric = metric_of(m, m.at, m.frequency);
+    const std::string si = si_unit(metric);
+    if (m.value) m.value->require(si, m.origin);
+    push(m, metric, title_of(metric), m.value ? m.value->si() : kNotANumber, si, si);
+  }
+
+  void add_table(const Measurement& m) {
+    if (scene_.is_static())
+      m.origin.fail("'table' is for values over time or frequency, and this scene is static: give 'value'");
+    const CsvTable table = read_csv_with_gaps(*m.table);
+    const auto column = [&](const std::string& name) {
+      if (table.has(name)) return table.column(name);
+      m.origin.fail(fmt::format("{} has no column '{}'{} There are {}", m.table->path, name,
+                                did_you_mean(name, table.names, "."), join(table.names)));
+    };
+    const std::size_t values = column(m.column);
+    const std::size_t over = m.over.empty() ? 0 : column(m.over);
+    if (values == over) m.origin.fail("'column' and 'over' are the same column; name another one");
+    const double over_factor = factor_of(unit_in(table.names[over]), scene_.harmonic ? "Hz" : "s", m.origin);
+    const std::string unit = m.unit.empty() ? unit_in(m.column) : m.unit;
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      const double x = over_factor * table.at(row, over), y = table.at(row, values);
+      if (std::isnan(x) || std::isnan(y)) continue;
+      const WantedMetric metric = scene_.harmonic ? metric_of(m, {}, x) : metric_of(m, x, {});
+      const std::string si = si_unit(metric);
+      push(m, metric, title_of(metric), y * factor_of(unit, si, m.origin), si, unit.empty() ? si : unit);
+      data_.back().over = x;
+      ++count;
+    }
+    if (count == 0) m.origin.fail(fmt::format("{}: column '{}' has no values", m.table->path, m.column));
+  }
+
+  WantedMetric metric_of(const Measurement& m, std::optional<double> at, std::optional<double> frequency) const {
+    WantedMetric metric{.quantity = m.quantity, .at = at, .response = m.response, .frequency = frequency};
+    metric.origin = m.origin;
+    if (scene_.harmonic) {
+      if (at) m.origin.fail("'at' is a time, and this scene is a harmonic analysis: give 'frequency'");
+      check_response(metric);
+    } else if (metric.is_of_response()) {
+      m.origin.fail("'response' and 'frequency' are for a harmonic analysis, which this scene is not");
+    }
+    if (scene_.is_static() && at) m.origin.fail("'at' is a time, and this scene is static; remove it");
+    if (at && (*at < scene_.time.start || *at > scene_.time.end))
+      m.origin.fail(fmt::format("the scene runs from {} to {} s, and the value is measured at {} s", scene_.time.start,
+                                scene_.time.end, *at));
+    return metric;
+  }
+
+  void check_response(const WantedMetric& metric) const {
+    const ResponseMetric wanted = metric.response_metric();
+    const bool needs_frequency = wanted == ResponseMetric::amplitude || wanted == ResponseMetric::phase;
+    if (needs_frequency != metric.frequency.has_value())
+      metric.origin.fail(needs_frequency ? "amplitude and phase need a 'frequency'"
+                                         : "'frequency' is for amplitude and phase; remove it");
+  }
+
+  std::string si_unit(const WantedMetric& metric) const {
+    const FemModel& model = *built_.model;
+    if (scene_.harmonic) {
+      const auto columns = response_columns(scene_, model);
+      return metric_unit(metric.response_metric(), columns[find_column(columns, metric.quantity, metric.origin)].unit);
+    }
+    const Quantity quantity = find_quantity(metric.quantity, scene_, model, metric.origin);
+    if (quantity.components() > 1) metric.origin.fail(quantity.ask_for_component());
+    return metric.unit_of(quantity.unit);
+  }
+
+  static std::string title_of(const WantedMetric& metric) {
+    if (metric.is_of_response()) return response_title(metric.response_metric(), metric.quantity, metric.frequency);
+    return metric.at ? fmt::format("{} at {:.6g} s", metric.quantity, *metric.at) : metric.quantity;
+  }
+
+  // `unit`: of display.
+  void push(const Measurement& m, const WantedMetric& metric, const std::string& title, double value,
+            const std::string& si, const std::string& unit) {
+    if (m.deviation) m.deviation->require(si, m.origin);
+    const double deviation = m.deviation ? m.deviation->si() : *m.relative * std::abs(value);
+    if (!(deviation > 0) && m.relative)
+      m.origin.fail(fmt::format("the value {} has no relative deviation: give 'deviation'", value));
+    Datum datum{title, entry_, metric, value, deviation, unit, factor_of(unit, si, m.origin)};
+    datum.has_derivatives = scene_.is_static();
+    data_.push_back(std::move(datum));
+  }
+
+  Scene scene_;
+  BuiltScene built_;
+  std::size_t entry_ = 0;
+  std::vector<Datum> data_;
+};
+
+}  // namespace
+
+std::vector<Datum> data_of(const Experiment& experiment, const Config& config) {
+  return Reader(config).read(experiment);
+}
+
+}  // namespace orthodyn::study::fit

@@ -1,0 +1,28 @@
+// The measured values of a fit, one by one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/study/fit/fit.h"
+
+namespace orthodyn::study::fit {
+
+struct Datum {
+  std::string title;                // "frequency of mode 3", "tip.displacement.z at 0.25 s"
+  std::size_t entry;                // of `measured`; data of a table have the same entry
+  WantedMetric metric;              // computed by the scene
+  double value;                     // SI; NaN for candidates
+  double deviation;                 // SI
+  std::string unit;                 // of display, for people
+  double factor = 1;                // from `unit` to SI
+  std::optional<double> over = {};  // time (s) or frequency (Hz) in a table
+  // Whether its derivatives are exact (EvaluationResult::derivatives). Otherwise they are differences between runs.
+  bool has_derivatives = false;
+};
+
+// Reads the tables, and checks quantities, units and times against `config`, the resolved scene. Throws ConfigError.
+std::vector<Datum> data_of(const Experiment& experiment, const Config& config);
+
+}  // namespace orthodyn::study::fit

@@ -1,0 +1,188 @@
+#include "lib/study/fit/fit.h"
+
+#include "lib/simulation/run/scene_file.h"
+
+namespace orthodyn {
+
+using study::fit::Parameter;
+
+ValueSchema Value<Parameter>::schema() {
+  const ValueSchema section{
+      .kind = ValueSchema::Kind::section, .title = "Parameter", .keys = [] { return Parameter::spec().keys(); }};
+  return {.kind = ValueSchema::Kind::either, .items = {Value<std::string>::schema(), section}};
+}
+
+Parameter Value<Parameter>::read(const Config& c, const Rule&) {
+  if (c.is_map()) return Parameter::spec().read(c);
+  Parameter out;
+  out.path = c.text();
+  out.origin.where = c.where();
+  return out;
+}
+
+}  // namespace orthodyn
+
+namespace orthodyn::study::fit {
+
+namespace {
+
+void check_measurement(const Measurement& m, const Config& config) {
+  const int kinds = !m.quantity.empty() + m.mode.has_value() + !m.frequencies.empty();
+  if (kinds != 1) config.fail("give exactly one of: quantity, mode, frequencies");
+  if (m.deviation.has_value() == m.relative.has_value())
+    config.fail(
+        "give the standard deviation of the measurement: 'deviation' in its unit, or 'relative' (0.01 for 1 %)");
+  const auto refuse = [&](bool is_given, const char* key, const char* reason) {
+    if (is_given) config.at(key).fail(std::string("is not used ") + reason + "; remove it");
+  };
+  if (!m.frequencies.empty()) {
+    refuse(m.value.has_value(), "value", "with 'frequencies', which are values themselves");
+    refuse(m.table.has_value(), "table", "with 'frequencies', which are values themselves");
+  }
+  if (m.quantity.empty()) {
+    refuse(m.at.has_value(), "at", "for natural frequencies");
+    refuse(m.response.has_value(), "response", "for natural frequencies");
+    refuse(m.frequency.has_value(), "frequency", "for natural frequencies");
+  }
+  if (m.mode) refuse(m.table.has_value(), "table", "for one natural frequency");
+  if (m.table) {
+    refuse(m.value.has_value(), "value", "with 'table', which has the values");
+    refuse(m.at.has_value(), "at", "with 'table', whose column 'over' has the times");
+    refuse(m.frequency.has_value(), "frequency", "with 'table', whose column 'over' has the frequencies");
+    if (m.column.empty()) config.fail("key 'column' is missing: the column of the table that has the values");
+  } else {
+    refuse(!m.column.empty(), "column", "without 'table'");
+    refuse(!m.over.empty(), "over", "without 'table'");
+    refuse(!m.unit.empty(), "unit", "without 'table'; write the unit after the value");
+  }
+}
+
+void check_values(const Named<Experiment>& experiments, const Config& config, bool wants_values) {
+  for (const auto& [name, experiment] : experiments) {
+    if (experiment.measured.empty()) config.at(name).at("measured").fail("is empty; name at least one measured value");
+    for (std::size_t i = 0; i < experiment.measured.size(); ++i) {
+      const Measurement& m = experiment.measured[i];
+      const Config at = config.at(name).at("measured").at(i);
+      const bool has_values = m.value || m.table || !m.frequencies.empty();
+      if (wants_values && !has_values) at.fail("has no measured 'value' (or 'table')");
+      if (!wants_values && has_values)
+        at.fail("a candidate has no measured values: give quantity or mode and the deviation that you expect");
+      if (!wants_values && m.relative) at.at("relative").fail("is not used for a candidate; give 'deviation'");
+    }
+  }
+}
+
+void check_fit(const Fit& fit, const Config& config) {
+  if (fit.experiments.empty()) config.at("experiments").fail("is empty");
+  if (fit.parameters.empty()) config.at("parameters").fail("is empty; name at least one number of the scenes");
+  check_values(fit.experiments, config.at("experiments"), true);
+  if (!fit.candidates.empty()) check_values(fit.candidates, config.at("candidates"), false);
+}
+
+}  // namespace
+
+const Spec<Measurement>& Measurement::spec() {
+  static const auto s =
+      Spec<Measurement>()
+          .key("quantity", &Measurement::quantity,
+               "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as "
+               "in the `expect` list of a scene.")
+          .key("mode", &Measurement::mode, "A natural frequency by its number, not counting rigid modes.",
+               {.unit = "", .range = {1, 1000}})
+          .key("frequencies", &Measurement::frequencies,
+               "The lowest natural frequencies in ascending order, without rigid modes: [51.2 Hz, 80 Hz]; null for one "
+               "that was not measured.")
+          .key("at", &Measurement::at, "Time of the measured value; default the end.", {.unit = "s"})
+          .key("response", &Measurement::response, kResponseSentence)
+          .key("frequency", &Measurement::frequency, kFrequencySentence, {.unit = "Hz", .range = kPositive})
+          .key("value", &Measurement::value, "The measured value.", {.unit = kUnitOfQuantity})
+          .key("table", &Measurement::table,
+               "Instead of `value`: a CSV file with the measured values over time, in a harmonic analysis over "
+               "frequency. The first line names the columns. Empty entries are values that were not measured.")
+          .key("column", &Measurement::column, "Column of the table with the measured values.")
+          .key("over", &Measurement::over, "Column of the table with times or frequencies; default its first column.")
+          .key("unit", &Measurement::unit,
+               "Unit of the column's values; default the one in brackets in its name (z [mm]), otherwise SI.")
+          .key("deviation", &Measurement::deviation, "Standard deviation of each measured value, or `relative`.",
+               {.unit = kUnitOfQuantity, .range = kPositive})
+          .key("relative", &Measurement::relative, "Standard deviation as a fraction of each measured value.",
+               {.range = kPositive})
+          .check(check_measurement);
+  return s;
+}
+
+const Spec<Experiment>& Experiment::spec() {
+  static const auto s =
+      Spec<Experiment>()
+          .key("scene", &Experiment::scene, "The scene of the experiment: a file, or {file, set}.", {.required = true})
+          .key("measured", &Experiment::measured, "The measured values.", {.required = true});
+  return s;
+}
+
+const Spec<Prior>& Prior::spec() {
+  static const auto s = Spec<Prior>()
+                            .key("value", &Prior::value, "Expected value.", {.required = true})
+                            .key("deviation", &Prior::deviation, "Standard deviation.", {.required = true});
+  return s;
+}
+
+const Spec<Parameter>& Parameter::spec() {
+  static const auto s =
+      Spec<Parameter>()
+          .key("path", &Parameter::path,
+               "A number of the scenes by its path, such as materials.spruce.young.0. Scenes without this key are left "
+               "as they are.",
+               {.required = true})
+          .key("also", &Parameter::also, "Further paths that get the same value.")
+          .key("start", &Parameter::start, "First value of the search; default that of the first scene.")
+          .key("lower", &Parameter::lower, "Smallest allowed value.")
+          .key("upper", &Parameter::upper, "Largest allowed value.")
+          .key("prior", &Parameter::prior,
+               "What is known without the measurements: {value, deviation}. It counts as one more measured value.")
+          .key("scale", &Parameter::scale,
+               "log: the search changes the value by factors. linear: by differences. Default: log for positive "
+               "numbers; linear for angles and negative numbers. Poisson's ratios have their own coordinates, in which "
+               "every material is stable.");
+  return s;
+}
+
+const Spec<Fit>& Fit::spec() {
+  static const auto s =
+      Spec<Fit>()
+          .key("title", &Fit::title, "Heading of the report; default the file's name.")
+          .key("description", &Fit::description, "One or two sentences for the report.")
+          .key("experiments", &Fit::experiments, "Scenes with their measured values, by name.", {.required = true})
+          .key("parameters", &Fit::parameters,
+               "Numbers of the scenes that are to be found, by name: a path or a section.", {.required = true})
+          .key("candidates", &Fit::candidates,
+               "Experiments that could be done next, by name: `measured` names quantity or mode and the deviation that "
+               "you expect. The report tells by how much each would shrink the intervals of the parameters.")
+          .key(
+              "loss", &Fit::loss,
+              "squares: least squares. huber, cauchy: residuals above one standard deviation count less, for data with "
+              "outliers.")
+          .key("starts", &Fit::starts, "Number of searches, each from another start. The best result is kept.",
+               {.range = {1, 1000}})
+          .key("seed", &Fit::seed, "Seed of the further starts.")
+          .key("spread", &Fit::spread, "Further starts are between start / spread and start * spread, or the bounds.",
+               {.range = {1, 1e6, true, false}})
+          .key("iterations", &Fit::iterations, "Largest number of iterations of a search.", {.range = {1, 10000}})
+          .key("tolerance", &Fit::tolerance, "Relative change of the parameters at which a search ends.",
+               {.range = {1e-14, 0.1}})
+          .key("refine", &Fit::refine,
+               "Also compute the experiments once on refined meshes, and tell by how much the mesh moves the "
+               "parameters.")
+          .key("limits", &Fit::limits, "Wall time and memory limits of each run.")
+          .check(check_fit);
+  return s;
+}
+
+Fit read_fit(const Config& config) {
+  refuse_other_kinds(config, InputFile::fit);
+  Fit fit = Fit::spec().read(config);
+  fit.name = stem(config.file());
+  if (fit.title.empty()) fit.title = fit.name;
+  return fit;
+}
+
+}  // namespace orthodyn::study::fit

@@ -1,0 +1,143 @@
+#include "lib/study/fit/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/core/units.h"
+#include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/sensitivity/scene_parameter.h"
+#include "lib/study/sweep/key_unit.h"
+
+namespace orthodyn::study::fit {
+
+namespace {
+
+bool has_path(const Config& scene, const std::string& path) {
+  try {
+    SceneParameter(scene, path);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+double si_value(const YamlText& value, const std::string& unit) {
+  try {
+    return read_number(parsed(value), {.unit = unit});
+  } catch (const ConfigError& e) {
+    throw ConfigError(value.origin.where, e.what());
+  }
+}
+
+}  // namespace
+
+Problem::Problem(const Fit& fit) : limits_(fit.limits) {
+  prepare(fit.experiments, false);
+  prepare(fit.candidates, true);
+  for (const auto& [name, parameter] : fit.parameters) add_parameter(name, parameter);
+  std::vector<PathOfParameter> paths;
+  for (std::size_t p = 0; p < parameters_.size(); ++p)
+    for (const std::string& path : parameters_[p].paths)
+      for (const PreparedExperiment& experiment : experiments_)
+        if (has_path(experiment.scene, path)) paths.push_back({p, path, experiment.scene});
+  set_intervals(coordinates_, paths);
+  require_enough_data(fit);
+}
+
+void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates) {
+  for (const auto& [name, experiment] : experiments) {
+    Config scene = Config::from_file(experiment.scene.file.path);
+    refuse_other_kinds(scene, InputFile::scene);
+    assign(scene, experiment.scene.set);
+    experiments_.push_back({name, scene, data_of(experiment, scene.resolving()), {}, are_candidates});
+  }
+}
+
+void Problem::add_parameter(const std::string& name, const Parameter& parameter) {
+  FittedParameter fitted;
+  fitted.name = name, fitted.paths = {parameter.path};
+  fitted.paths.insert(fitted.paths.end(), parameter.also.begin(), parameter.also.end());
+  std::optional<Config> first;  // scene that has the path
+  for (PreparedExperiment& experiment : experiments_) {
+    std::vector<std::string>& own = experiment.paths.emplace_back();
+    for (const std::string& path : fitted.paths) {
+      if (!has_path(experiment.scene, path)) continue;
+      own.push_back(path);
+      if (!first && path == parameter.path && !experiment.is_candidate) first = experiment.scene;
+    }
+  }
+  if (!first) {
+    try {
+      SceneParameter(experiments_.front().scene, parameter.path);  // throws
+    } catch (const ConfigError& e) {
+      parameter.origin.fail(e.what());
+    }
+    parameter.origin.fail(fmt::format("no experiment has the number '{}'", parameter.path));
+  }
+  const SceneParameter in_scene(*first, parameter.path);
+  const std::string si = in_scene.is_angle() ? "rad" : unit_at(parameter.path, *first);
+  fitted.unit = in_scene.unit().empty() ? si : in_scene.unit();
+  fitted.factor = in_scene.factor();
+  fitted.start = parameter.start ? si_value(*parameter.start, si) : in_scene.value();
+  if (parameter.lower) fitted.lower = si_value(*parameter.lower, si);
+  if (parameter.upper) fitted.upper = si_value(*parameter.upper, si);
+  if (parameter.prior) {
+    fitted.prior = si_value(parameter.prior->value, si);
+    fitted.deviation = si_value(parameter.prior->deviation, si);
+    if (!(*fitted.deviation > 0)) parameter.origin.fail("prior: the deviation must be positive");
+  }
+  if (fitted.start < fitted.lower.value_or(fitted.start) || fitted.start > fitted.upper.value_or(fitted.start))
+    parameter.origin.fail(
+        fmt::format("the start {:.6g} {} is outside of the bounds", fitted.start / fitted.factor, fitted.unit));
+  parameters_.push_back(fitted);
+  add_coordinate(parameter, parameters_.back(), *first);
+}
+
+void Problem::add_coordinate(const Parameter& parameter, const FittedParameter& fitted, const Config& scene) {
+  const SceneParameter in_scene(scene, parameter.path);
+  if (is_poisson_ratio(parameter.path, scene) && parameter.also.empty()) {
+    if (fitted.lower || fitted.upper || parameter.scale)
+      parameter.origin.fail(
+          "a Poisson's ratio is searched in the interval in which the material is stable: remove lower, upper and "
+          "scale (a prior is allowed)");
+    return coordinates_.add_ratio();
+  }
+  const bool is_log = parameter.scale ? *parameter.scale == Scale::log : fitted.start > 0 && !in_scene.is_angle();
+  if (!is_log) return coordinates_.add_linear(in_scene.is_angle() || fitted.start == 0 ? 1 : std::abs(fitted.start));
+  if (!(fitted.start > 0) || fitted.lower.value_or(1) <= 0 || fitted.upper.value_or(1) <= 0)
+    parameter.origin.fail("scale: log needs positive values; give scale: linear");
+  coordinates_.add_log();
+}
+
+void Problem::require_enough_data(const Fit& fit) const {
+  const std::size_t priors = static_cast<std::size_t>(
+      std::ranges::count_if(parameters_, [](const FittedParameter& p) { return p.prior.has_value(); }));
+  const std::size_t values = data().size();
+  if (values + priors >= parameters_.size()) return;
+  fit.origin.fail(fmt::format(
+      "{} measured values{} cannot determine {} parameters: add measured values or priors, or fit fewer parameters",
+      values, priors > 0 ? fmt::format(" and {} priors", priors) : "", parameters_.size()));
+}
+
+std::vector<const Datum*> Problem::data(Experiments which) const {
+  std::vector<const Datum*> out;
+  for (const PreparedExperiment& experiment : experiments_)
+    if (experiment.is_candidate == (which == Experiments::candidates))
+      for (const Datum& datum : experiment.data) out.push_back(&datum);
+  return out;
+}
+
+Config Problem::scene_with(const PreparedExperiment& experiment, const Vector& values) const {
+  Config scene = experiment.scene.copy();
+  for (std::size_t p = 0; p < parameters_.size(); ++p)
+    for (const std::string& path : experiment.paths[p]) {
+      const SceneParameter parameter(scene, path);
+      scene = parameter.changed(scene, values[static_cast<Eigen::Index>(p)] - parameter.value());
+    }
+  return scene;
+}
+
+}  // namespace orthodyn::study::fit

@@ -1,0 +1,50 @@
+// The search for the parameter values of least weighted squares, by the Levenberg-Marquardt method of Ceres.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lib/study/fit/problem.h"
+
+namespace orthodyn::study::fit {
+
+// What the fit minimises. Residuals are (computed - measured) / deviation, of the data and then of the priors.
+struct Residuals {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd derivatives;  // d residual / d z; empty if not computed
+};
+
+// Residuals at z, given the evaluation there.
+Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation& at);
+
+// Weights of data without priors: rows d computed / d z / deviation.
+Eigen::MatrixXd weighted(const Problem& problem, const Eigen::MatrixXd& derivatives, Experiments which);
+
+struct Iteration {
+  int number = 0;
+  double chi_square = 0;  // sum of squared residuals
+  Vector values;          // parameters, SI
+  bool accepted = true;
+};
+
+struct Search {
+  Vector start, z;  // coordinates at the start and at the end
+  bool converged = false;
+  std::string message;       // why the search ended
+  double cost = 0;           // minimised: half the sum of squared residuals, with the loss
+  Evaluation at;             // at the end, with derivatives
+  Vector computed_at_start;  // data at the start, SI
+  std::vector<Iteration> iterations;
+  std::size_t evaluations = 0, failed_evaluations = 0;
+};
+
+// Searches from z. `on_iteration` is called after each iteration. Throws Failed if the data cannot be computed at the
+// start, ConfigError if a parameter changes no datum, RunError if this build has no Ceres; Interrupted.
+Search search(const Problem& problem, const Fit& fit, const Vector& start, const JobOptions& options,
+              const std::function<void(const Iteration&)>& on_iteration);
+
+// Starts of all searches: the parameters' own start, then points of a Latin hypercube.
+std::vector<Vector> starts_of(const Problem& problem, const Fit& fit);
+
+}  // namespace orthodyn::study::fit

@@ -1,0 +1,82 @@
+"""The answer of a fit: its findings as sentences, and the table of the parameters."""
+import math
+
+from ..report import formatting
+from ..report.markup import joined, tag
+from ..report.tables import number, table
+from . import numbers
+
+UNKNOWN = "unknown"
+CAPTION = ("Fitted parameters. The interval contains the true value with a probability of 95 %, if the scenes and the "
+           "stated deviations are right. Shift: change by one refinement of the meshes; in bold if it leaves the interval.")
+
+
+def sentence(text, names=()):
+    """The text with a capital letter, unless it begins with one of the names, and with a full stop."""
+    first = text.split(" ", 1)[0]
+    start = text if first in names else text[:1].upper() + text[1:]
+    return start if start.endswith((".", "!", "?")) else start + "."
+
+
+def value(parameter):
+    """The value with the digits that its interval justifies, and its unit."""
+    return numbers.with_unit(numbers.rounded(parameter.value, parameter.half_width), parameter.unit)
+
+
+def _interval(parameter):
+    width = parameter.half_width
+    if not math.isfinite(width):
+        return tag("td", UNKNOWN, class_="word")
+    ends = " to ".join(numbers.rounded(end, width) for end in (parameter.low, parameter.high))
+    return tag("td", f"{ends} ", tag("small", parameter.precision), class_="word")
+
+
+def _knowledge(parameter):
+    return tag("td", parameter.knowledge + (", at its bound" if parameter.at_bound else ""), class_="word")
+
+
+def _prior(parameter):
+    if not math.isfinite(parameter.prior):
+        return formatting.UNKNOWN
+    return f"{numbers.brief(parameter.prior)} ± {numbers.brief(parameter.prior_deviation, 2)}"
+
+
+def _shift(parameter):
+    text = numbers.signed(parameter.shift, parameter.half_width)
+    return tag("strong", text) if abs(parameter.shift) > parameter.half_width else text
+
+
+def _row(parameter, with_prior, with_shift):
+    cells = [number(value(parameter)), _interval(parameter), _knowledge(parameter), number(numbers.brief(parameter.start))]
+    cells += [number(_prior(parameter))] if with_prior else []
+    cells += [number(_shift(parameter))] if with_shift else []
+    return tag("tr", tag("th", parameter.name, scope="row", title=", ".join(parameter.paths) or None), *cells)
+
+
+def parameter_table(fit):
+    with_prior = any(math.isfinite(p.prior) for p in fit.parameters)
+    with_shift = any(math.isfinite(p.shift) for p in fit.parameters)
+    head = [("Parameter", False), ("Value", True), ("95 % interval", False), ("Knowledge", False), ("Start", True)]
+    head += [("Prior", True)] if with_prior else []
+    head += [("Shift", True)] if with_shift else []
+    rows = [_row(p, with_prior, with_shift) for p in fit.parameters]
+    caption = CAPTION if with_shift else CAPTION.split(" Shift:")[0]
+    return table(caption, head, rows, "Parameters")
+
+
+def answer(fit):
+    """The first finding as the headline, the others as a list, and the table."""
+    first, *others = [sentence(text, [p.name for p in fit.parameters]) for text in fit.findings] or [
+        "The fit has no findings."]
+    return joined([tag("p", first, class_="headline"), tag("ul", *(tag("li", s) for s in others)) if others else None,
+                   parameter_table(fit)])
+
+
+def banner(fit):
+    """The warnings, or None."""
+    found = [sentence(text, [p.name for p in fit.parameters]) for text in fit.warnings]
+    if not found:
+        return None
+    if len(found) == 1:
+        return tag("p", found[0], class_="banner", role="status")
+    return tag("div", tag("ul", *(tag("li", s) for s in found)), class_="banner", role="status")

@@ -1,0 +1,43 @@
+"""Numbers with the digits that their uncertainty leaves."""
+import math
+
+from ..report import formatting
+
+FIGURES = 2  # digits of an uncertainty
+
+
+def minus(text):
+    return text.replace("-", "−")
+
+
+def rounded(value, width, fewest=3):
+    """The value to two digits of its half width: 11.0003 with 0.17 is '11.00'. Without a width, with `fewest` digits."""
+    if not math.isfinite(value):
+        return formatting.UNKNOWN
+    if not (math.isfinite(width) and width > 0):
+        return minus(f"{value:.{fewest}g}")
+    last = FIGURES - 1 - int(f"{width:.{FIGURES - 1}e}".split("e")[1])  # decimal places
+    largest = max(abs(value), width)
+    if 1e-3 <= largest < 1e6:
+        return minus(f"{round(value, min(last, 12)):.{min(max(last, 0), 12)}f}")
+    if value == 0:
+        return "0"
+    power = math.floor(math.log10(abs(value)))
+    return minus(f"{value / 10.0 ** power:.{min(max(last + power, 0), 12)}f}e{power}")
+
+
+def brief(value, digits=4):
+    """A value without a known uncertainty, without trailing zeros."""
+    return minus(f"{value:.{digits}g}") if math.isfinite(value) else formatting.UNKNOWN
+
+
+def with_unit(text, unit):
+    return f"{text}{formatting.THIN}{unit}" if unit else text
+
+
+def signed(value, width=math.nan):
+    """'+0.0052': a change with two digits, or with those of a half width."""
+    if not math.isfinite(value):
+        return formatting.UNKNOWN
+    text = rounded(value, width, FIGURES) if math.isfinite(width) else brief(value, FIGURES)
+    return f"+{text}" if value > 0 else text

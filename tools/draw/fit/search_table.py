@@ -1,0 +1,64 @@
+"""The search: a table of its attempts."""
+import math
+
+from ..report import formatting
+from ..report.markup import joined, tag
+from ..report.tables import number, table
+from . import numbers
+
+
+def outcome(attempt):
+    """'converged', or why not."""
+    if not attempt.end:
+        return attempt.failure or "failed"
+    return "converged" if attempt.converged else attempt.message or "not converged"
+
+
+def _end(fit, attempt, k):
+    return numbers.rounded(attempt.end[k], fit.parameters[k].half_width, 4) if attempt.end else formatting.UNKNOWN
+
+
+def _row(fit, index):
+    attempt = fit.attempts[index]
+    values = [number(f"{numbers.brief(attempt.start[k])} → {_end(fit, attempt, k)}") for k in range(len(fit.parameters))]
+    name = f"{index + 1}" + (" (best)" if index == fit.best and len(fit.attempts) > 1 else "")
+    iterations = formatting.count(attempt.iterations[-1].number) if attempt.iterations else formatting.UNKNOWN
+    failed = attempt.failed_evaluations
+    evaluations = formatting.count(attempt.evaluations) + (f", {failed:.0f} failed" if failed > 0 else "")
+    return tag("tr", tag("th", name, scope="row"), *values, number(numbers.brief(attempt.chi_square, 3)),
+               number(iterations), number(evaluations), tag("td", outcome(attempt), class_="message"),
+               class_=None if attempt.end else "failed")
+
+
+def attempts_table(fit):
+    head = [("Attempt", False), *((p.name + (f" [{p.unit}]" if p.unit else ""), True) for p in fit.parameters),
+            ("Chi-square", True), ("Iterations", True), ("Evaluations", True), ("Outcome", False)]
+    rows = [_row(fit, k) for k in range(len(fit.attempts))]
+    return table("Attempts: start → end of each parameter", head, rows, "Attempts")
+
+
+def tip(fit, index, iteration):
+    """The tooltip of an iteration."""
+    rows = [["Chi-square", numbers.brief(iteration.chi_square)]]
+    rows += [[p.name, numbers.with_unit(numbers.brief(v), p.unit)] for p, v in zip(fit.parameters, iteration.values)]
+    rejected = "" if iteration.accepted else ", rejected"
+    return {"m": index, "title": f"Attempt {index + 1}, iteration {iteration.number}{rejected}", "rows": rows, "e": {}}
+
+
+def search_words(fit):
+    failed = sum(not a.end for a in fit.attempts)
+    hollow = " Hollow marks are steps that were rejected." if any(
+        not i.accepted for a in fit.attempts for i in a.iterations) else ""
+    words = ("Chi-square is the sum of the squared residuals over their deviations, with those of the priors. It should fall to "
+             f"about the number of degrees of freedom, or below.{hollow}")
+    return joined([words, f" {formatting.plural(failed, 'attempt')} of {len(fit.attempts)} failed." if failed else None])
+
+
+def best(fit):
+    """The best attempt, or None."""
+    return fit.attempts[fit.best] if 0 <= fit.best < len(fit.attempts) else None
+
+
+def final_chi_square(fit):
+    found = best(fit)
+    return found.chi_square if found else math.nan
