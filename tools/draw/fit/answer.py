@@ -1,5 +1,6 @@
 """The answer of a fit: its findings as sentences, and the table of the parameters."""
 import math
+import re
 
 from ..report import formatting
 from ..report.markup import joined, tag
@@ -12,7 +13,9 @@ CAPTION = ("Fitted parameters. The interval contains the true value with a proba
 
 
 def sentence(text, names=()):
-    """The text with a capital letter, unless it begins with one of the names, and with a full stop."""
+    """The text with a capital letter, unless it begins with one of the names, with a full stop, and with a minus and a
+    percent sign that are not separated from their numbers."""
+    text = re.sub(r"(?<= )-(?=\d)", "−", re.sub(r"(?<=\d) %", f"{formatting.THIN}%", text))
     first = text.split(" ", 1)[0]
     start = text if first in names else text[:1].upper() + text[1:]
     return start if start.endswith((".", "!", "?")) else start + "."
@@ -42,7 +45,7 @@ def _prior(parameter):
 
 
 def _shift(parameter):
-    text = numbers.signed(parameter.shift, parameter.half_width)
+    text = numbers.signed(parameter.shift)
     return tag("strong", text) if abs(parameter.shift) > parameter.half_width else text
 
 

@@ -6,11 +6,11 @@ from ..report.markup import joined, tag
 from ..report.tables import number, table
 from ..units import prefix
 from . import numbers
-from .series_plot import BAND, every
+from .series_plot import BAND, MOST_BARS, every
 
 FAR = 1e-3  # probability of so small a chi-square, below which the stated deviations look too large
-SERIES = ("Dots are measured values; bars, if not too many, are one standard deviation. The pale line is computed with the "
-          "start values. Below, residuals are (computed − measured) / deviation: of noise, 95 % lie in the grey band.")
+SERIES = ("Dots are measured values, and their bars one standard deviation. The pale line is computed with the start values. "
+          "Below, residuals are (computed − measured) / deviation: of noise, 95 % lie in the grey band.")
 SINGLE = "Residuals are (computed − measured) / deviation. Of noise, 95 % lie in the grey band, between −1.96 and 1.96."
 
 
@@ -23,7 +23,7 @@ def _texts(datum):
     """Measured value, deviation and computed value as texts, and their unit."""
     factor, unit = _scaled(datum)
     width = datum.deviation / factor
-    return (numbers.rounded(datum.measured / factor, width), numbers.brief(width, numbers.FIGURES),
+    return (numbers.rounded(datum.measured / factor, width), numbers.rounded(width, width),
             numbers.rounded(datum.computed / factor, width), unit)
 
 
@@ -43,7 +43,7 @@ def _single_table(experiment, data):
     head = (("Datum", False), ("Measured", True), ("Deviation", True), ("Computed", True), ("Unit", False),
             ("Residual / deviation", True))
     return table(f"Single values of {experiment}", head, [_row(d) for d in data], f"Data of {experiment}",
-                 "long" if len(data) > 15 else None)
+                 "long named" if len(data) > 15 else "named")
 
 
 def _smaller(noise):
@@ -55,8 +55,9 @@ def noise_sentences(noise):
     if noise.freedom <= 0:
         return "There are as many parameters as measured values, so the fit cannot be tested."
     freedom = f"{formatting.plural(noise.freedom, 'degree')} of freedom"
-    parts = [f"Chi-square, the sum of the squared residuals over their deviations, is {numbers.brief(noise.chi_square, 3)}, "
-             f"with {freedom}: about {noise.freedom} is expected of noise."]
+    found = numbers.brief(noise.chi_square, 4 if noise.chi_square >= 100 else 3)
+    parts = [f"Chi-square, the sum of the squared residuals over their deviations, is {found}, "
+             f"with {freedom}: about {formatting.count(noise.freedom)} is expected of noise."]
     if math.isfinite(noise.probability):
         parts.append(f"The probability of a value this large or larger is {numbers.brief(noise.probability, 2)}.")
     if _smaller(noise):
@@ -77,7 +78,9 @@ def data_section(fit, figures):
     parts = [tag("p", noise_sentences(fit.noise))]
     for k, series in enumerate(fit.series):
         words = [SERIES] * (k == 0)
-        words += [f"Every {every(series)}th of {len(series.data)} values is drawn as a dot."] * (every(series) > 1)
+        words += ["Bars are left out, because there are many values."] * (len(series.data) > MOST_BARS)
+        if (step := every(series)) > 1:
+            words.append(f"One in {step} of {len(series.data)} values is drawn as a dot, all as residuals.")
         parts.append(_figure(figures.series(series), series.quantity, " ".join(words)))
     for k, (experiment, data) in enumerate(fit.single.items()):
         parts += [_figure(figures.residuals(experiment, data), experiment, SINGLE if k == 0 else None),

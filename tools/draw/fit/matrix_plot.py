@@ -9,7 +9,7 @@ from ..report.theme import LIGHT
 from .numbers import minus
 
 ROW = 30
-NUMBER = 34  # px: narrowest cell that has a number
+NUMBER = 28  # px: narrowest cell that has a number
 DARK = 0.62  # absolute value from which the number in a cell is light
 WELL, NOTHING = 0.1, 1  # deviations of a coordinate up to which it is well, and poorly, determined
 
@@ -41,7 +41,7 @@ def _cells(axes, rows, width):
         for x, value in enumerate(row):
             cell(axes, x, y, value)
             if width >= NUMBER:
-                _number(axes, x, y, value, 12 if width >= 44 else 10)
+                _number(axes, x, y, value, 12 if width >= 44 else 10 if width >= 34 else 9)
 
 
 def _names(fit, letters):

@@ -1,7 +1,6 @@
 """What to measure next: the value of the candidates."""
 import math
 
-from ..report import formatting
 from ..report.markup import joined, tag
 from ..report.tables import number, table
 from . import numbers
@@ -24,7 +23,7 @@ def shrinkage(parameter, after):
 def _cell(parameter, after):
     factor = shrinkage(parameter, after)
     if math.isfinite(factor):
-        return f"{factor:.3g}{formatting.THIN}×"
+        return numbers.times(factor)
     if not math.isfinite(after) or parameter.relative and after > NOTHING * abs(parameter.value):
         return "still unknown"
     return f"± {numbers.with_unit(numbers.brief(after, 2), parameter.unit)}"
@@ -36,23 +35,20 @@ def _score(parameter, after):
     return factor if math.isfinite(factor) else -after if math.isfinite(after) else -math.inf
 
 
-def _gain(gain):
-    return f"{gain:.3g}{formatting.THIN}×" if math.isfinite(gain) else formatting.UNKNOWN
-
-
 def _columns(fit, candidates):
     """[(heading, texts, scores)], one entry per column."""
     found = [(p.name, [_cell(p, c.deviations[k]) for c in candidates], [_score(p, c.deviations[k]) for c in candidates])
              for k, p in enumerate(fit.parameters)]
     for heading, key in (("D-gain", "determinant_gain"), ("A-gain", "trace_gain")):
         gains = [getattr(c, key) for c in candidates]
-        found.append((heading, [_gain(g) for g in gains], [g if math.isfinite(g) else -math.inf for g in gains]))
+        found.append((heading, [numbers.times(g) for g in gains], [g if math.isfinite(g) else -math.inf for g in gains]))
     return found
 
 
-def _bold(text, score, scores):
-    best = len(scores) > 1 and score == max(scores) and score > min(scores)
-    return tag("strong", text) if best else text
+def _bold(text, texts, scores):
+    """The text, in bold if it is the best of the column and others differ."""
+    best = texts[scores.index(max(scores))]
+    return tag("strong", text) if text == best and set(texts) != {best} else text
 
 
 def candidates_section(fit):
@@ -62,8 +58,8 @@ def candidates_section(fit):
     columns = _columns(fit, candidates)
     rows = []
     for k, candidate in enumerate(candidates):
-        cells = [number(_bold(texts[k], scores[k], scores)) for _, texts, scores in columns]
+        cells = [number(_bold(texts[k], texts, scores)) for _, texts, scores in columns]
         name = tag("strong", candidate.name) if k == 0 else candidate.name
         rows.append(tag("tr", tag("th", name, scope="row"), *cells, class_="best" if k == 0 else None))
     head = [("Candidate", False), *((heading, True) for heading, *_ in columns)]
-    return joined([tag("p", READ), table("Candidates, the most informative first", head, rows, "Candidates")])
+    return joined([tag("p", READ), table("Candidates, the most informative first", head, rows, "Candidates", "named")])

@@ -27,17 +27,27 @@ def rounded(value, width, fewest=3):
 
 
 def brief(value, digits=4):
-    """A value without a known uncertainty, without trailing zeros."""
-    return minus(f"{value:.{digits}g}") if math.isfinite(value) else formatting.UNKNOWN
+    """A value without a known uncertainty, without trailing zeros: '0.25', '81500', '1.5e−9'."""
+    if not math.isfinite(value):
+        return formatting.UNKNOWN
+    if value == 0 or 1e-4 <= abs(value) < 999999:
+        short = float(f"{value:.{digits}g}")
+        return minus(f"{short:.0f}" if abs(short) >= 10 ** digits else f"{short:.{digits}g}")
+    return minus(formatting.exponent(value, digits))
 
 
 def with_unit(text, unit):
     return f"{text}{formatting.THIN}{unit}" if unit else text
 
 
-def signed(value, width=math.nan):
-    """'+0.0052': a change with two digits, or with those of a half width."""
-    if not math.isfinite(value):
+def signed(value):
+    """'+0.0052': a change with two digits."""
+    return f"+{brief(value, FIGURES)}" if value > 0 else brief(value, FIGURES)
+
+
+def times(factor):
+    """'1.50 ×' with three digits; '–' if it is unknown."""
+    if not math.isfinite(factor):
         return formatting.UNKNOWN
-    text = rounded(value, width, FIGURES) if math.isfinite(width) else brief(value, FIGURES)
-    return f"+{text}" if value > 0 else text
+    text = f"{factor:#.3g}".rstrip(".") if factor < 1e3 else brief(factor, 3)
+    return f"{text}{formatting.THIN}×"

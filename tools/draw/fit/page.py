@@ -30,7 +30,9 @@ def _counted(fit):
 
 
 def _figure(picture, words, label):
-    return tag("figure", tag("div", picture, class_="stage"), tag("figcaption", words), aria_label=label) if picture else None
+    if not picture:
+        return None
+    return tag("figure", tag("div", picture, class_="stage"), tag("figcaption", words), aria_label=label)
 
 
 def _knowledge(fit, figures):
@@ -51,8 +53,9 @@ def _material(name, yaml):
 
 
 def _details(fit, folder):
-    said = pairs([("File", tag("code", fit.file) if fit.file else ""), ("Version", f"orthodyn {fit.version}" if fit.version else ""),
-                  ("Intervals", LINEAR), ("Same as tables", "parameters.csv and data.csv, beside this page")])
+    said = pairs([("File", tag("code", fit.file) if fit.file else ""),
+                  ("Version", f"orthodyn {fit.version}" if fit.version else ""), ("Intervals", LINEAR),
+                  ("Tables", "parameters.csv and data.csv, in the same folder")])
     again = f"{command('fit', fit.file, folder)}\n{drawing(folder)}"
     return joined([said, tag("h3", "To reproduce"), tag("pre", tag("code", again))])
 

@@ -30,7 +30,7 @@ def draw_residuals(experiment, data, width):
         if math.isfinite(datum.residual):
             axes.plot([0, datum.residual], [k, k], color=COMPUTED, lw=1.2, zorder=2)
             axes.plot([datum.residual], [k], marker="o", ms=7.5, ls="none", mfc=COMPUTED, mec=LIGHT["paper"], mew=0.8,
-                      zorder=3, gid=f"pt-{datum.index}-0")
+                      clip_on=False, zorder=3, gid=f"pt-{datum.index}-0")
         else:
             axes.annotate("unknown", (0, k), xytext=(6, 0), textcoords="offset points", va="center", fontsize=11,
                           color=LIGHT["muted"])

@@ -64,7 +64,8 @@ def draw_search(fit, width):
         _attempt(axes, colour, k, rows, k == fit.best)
     layout.text(0, 14, "Chi-square", weight="bold")
     layout.text(box[0] + box[2] / 2, top + height + 36, "Iteration", ha="center")
-    label_runs(layout, box, entries, [end_fraction(axes, drawn[k][-1].chi_square) for k, *_ in entries], columns, 50)
+    ends = [end_fraction(axes, drawn[k][-1].chi_square) for k, *_ in entries]
+    label_runs(layout, box, entries, ends, columns, 50, plain=True)
     layout.description = "Chi-square of each iteration; at the end " + ", ".join(
         f"{_name(fit, k)} {rows[-1].chi_square:.2g}" for k, rows in drawn.items())
     return layout

@@ -1,9 +1,8 @@
 """The search: a table of its attempts."""
-import math
-
 from ..report import formatting
 from ..report.markup import joined, tag
 from ..report.tables import number, table
+from ..study_json import with_unit
 from . import numbers
 
 
@@ -25,16 +24,16 @@ def _row(fit, index):
     iterations = formatting.count(attempt.iterations[-1].number) if attempt.iterations else formatting.UNKNOWN
     failed = attempt.failed_evaluations
     evaluations = formatting.count(attempt.evaluations) + (f", {failed:.0f} failed" if failed > 0 else "")
-    return tag("tr", tag("th", name, scope="row"), *values, number(numbers.brief(attempt.chi_square, 3)),
-               number(iterations), number(evaluations), tag("td", outcome(attempt), class_="message"),
+    return tag("tr", tag("th", name, scope="row"), number(numbers.brief(attempt.chi_square)), number(iterations),
+               number(evaluations), tag("td", outcome(attempt), class_="message"), *values,
                class_=None if attempt.end else "failed")
 
 
 def attempts_table(fit):
-    head = [("Attempt", False), *((p.name + (f" [{p.unit}]" if p.unit else ""), True) for p in fit.parameters),
-            ("Chi-square", True), ("Iterations", True), ("Evaluations", True), ("Outcome", False)]
+    head = [("Attempt", False), ("Chi-square", True), ("Iterations", True), ("Evaluations", True), ("Outcome", False),
+            *((with_unit(p.name, p.unit), True) for p in fit.parameters)]
     rows = [_row(fit, k) for k in range(len(fit.attempts))]
-    return table("Attempts: start → end of each parameter", head, rows, "Attempts")
+    return table("Attempts, with start → end of each parameter", head, rows, "Attempts")
 
 
 def tip(fit, index, iteration):
@@ -49,16 +48,6 @@ def search_words(fit):
     failed = sum(not a.end for a in fit.attempts)
     hollow = " Hollow marks are steps that were rejected." if any(
         not i.accepted for a in fit.attempts for i in a.iterations) else ""
-    words = ("Chi-square is the sum of the squared residuals over their deviations, with those of the priors. It should fall to "
-             f"about the number of degrees of freedom, or below.{hollow}")
-    return joined([words, f" {formatting.plural(failed, 'attempt')} of {len(fit.attempts)} failed." if failed else None])
-
-
-def best(fit):
-    """The best attempt, or None."""
-    return fit.attempts[fit.best] if 0 <= fit.best < len(fit.attempts) else None
-
-
-def final_chi_square(fit):
-    found = best(fit)
-    return found.chi_square if found else math.nan
+    words = ("Chi-square is the sum of the squared residuals over their deviations, with those of the priors. It should "
+             f"fall to about the number of degrees of freedom, or below.{hollow}")
+    return joined([words, f" {failed} of {formatting.plural(len(fit.attempts), 'attempt')} failed." if failed else None])
