@@ -1,7 +1,6 @@
 // `orthodyn fit`: parameters of scenes from measured values.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -18,8 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct FitArguments : StudyArguments {};
-
 std::string values_text(const Problem& problem, const Vector& values) {
   std::vector<std::string> words;
   for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
@@ -31,14 +28,15 @@ std::string values_text(const Problem& problem, const Vector& values) {
   return join(words);
 }
 
-// Prints a line for each iteration, and between them the number of finished runs if standard output is a terminal.
+// Prints a line for each iteration and each stage.
 class Printer {
  public:
   Printer(const Problem& problem, bool quiet) : problem_(problem), quiet_(quiet) {}
 
   void iteration(const Iteration& one) {
     if (quiet_) return;
-    if (!one.accepted) return fmt::print("  {:3}  step rejected\n", one.number);
+    if (!one.accepted)
+      return fmt::print("  {:3}  step rejected{}\n", one.number, one.failure.empty() ? "" : ": " + one.failure);
     fmt::print("  {:3}  chi-square {:<10.5g}  {}\n", one.number, one.chi_square, values_text(problem_, one.values));
     std::fflush(stdout);
   }
@@ -67,7 +65,7 @@ Fit read_with_warnings(const std::string& file) {
   return fit;
 }
 
-int run(const FitArguments& arguments) {
+int run(const StudyArguments& arguments) {
   use_one_thread_each();
   const Fit fit = read_with_warnings(arguments.file);
   const Problem problem(fit);
@@ -99,7 +97,7 @@ int run(const FitArguments& arguments) {
   return best.at("converged").get<bool>() ? 0 : 3;
 }
 
-void declare(FitArguments& arguments, CommandOptions& options) {
+void declare(StudyArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"fit", "A fit in YAML.", "fits", "fit", "runs"});
   declare_jobs(arguments, options, "runs");
 }

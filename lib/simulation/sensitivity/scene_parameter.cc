@@ -32,16 +32,6 @@ Config entry(const Config& at, const std::string& name, const std::string& path)
   at.fail(fmt::format("'{}' is not a parameter of this scene: {} has no entries", path, at.shown()));
 }
 
-Config value_at(const Config& scene, const std::string& path) {
-  Config at = scene;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    at = entry(at, path.substr(begin, end - begin), path);
-    begin = end + 1;
-  }
-  return at;
-}
-
 bool is_unit_of_angles(const std::string& unit) {
   if (unit.empty() || unit == "%") return false;
   try {
@@ -53,6 +43,25 @@ bool is_unit_of_angles(const std::string& unit) {
 }
 
 }  // namespace
+
+Config value_at(const Config& config, const std::string& path) {
+  Config at = config;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    at = entry(at, path.substr(begin, end - begin), path);
+    begin = end + 1;
+  }
+  return at;
+}
+
+bool has_value_at(const Config& config, const std::string& path) {
+  try {
+    value_at(config, path);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
 
 SceneParameter::SceneParameter(const Config& scene, const std::string& path) : path_(path) {
   const Config value = value_at(scene, path);

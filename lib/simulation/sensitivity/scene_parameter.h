@@ -7,6 +7,12 @@
 
 namespace orthodyn {
 
+// The value at a path of keys and indices, such as "young.0". Throws ConfigError if there is none.
+Config value_at(const Config& config, const std::string& path);
+
+// Whether there is a value at the path.
+bool has_value_at(const Config& config, const std::string& path);
+
 class SceneParameter {
  public:
   // Throws ConfigError if the scene has no such key, if it is not a number, or if it is 0 and not an angle, so that

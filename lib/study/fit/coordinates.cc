@@ -9,7 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "lib/core/units.h"
+#include "lib/config/values.h"
+#include "lib/simulation/sensitivity/scene_parameter.h"
 
 namespace orthodyn::study::fit {
 
@@ -70,14 +71,7 @@ class Constants {
   // `unit`: SI.
   Constant at(const std::string& key, const std::string& unit) const {
     if (const auto own = parameter(key)) return {own, 0};
-    Config value = section_;
-    for (std::size_t begin = 0; begin <= key.size();) {
-      const std::size_t end = std::min(key.find('.', begin), key.size());
-      const std::string step = key.substr(begin, end - begin);
-      value = value.is_sequence() ? value.at(std::stoul(step)) : value.at(step);
-      begin = end + 1;
-    }
-    return {{}, value.reads_as_number() ? value.number() : quantity_in(value.text(), unit)};
+    return {{}, read_number(value_at(section_, key), {.unit = unit})};
   }
   Constant young(int axis) const { return at(fmt::format("young.{}", axis), "Pa"); }
   [[noreturn]] void fail(const std::string& message) const { section_.fail(message); }

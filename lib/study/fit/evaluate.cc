@@ -93,9 +93,6 @@ class Plan {
 
   Evaluation collected(const std::vector<EvaluationResult>& results) const {
     Evaluation out;
-    out.runs = results.size();
-    for (const EvaluationResult& result : results)
-      if (result.cost) out.cpu_seconds += result.cost->cpu_seconds;
     std::vector<Eigen::RowVectorXd> rows;
     const Eigen::MatrixXd slopes = problem_.coordinates().derivatives(z_);
     for (std::size_t run = 0; run < runs_.size();) {

@@ -46,12 +46,12 @@ Result run_fit(const Problem& problem, const Fit& fit, JobOptions options, const
   };
   search_all(problem, fit, options, listener, result);
   const Search& best = result.search();
-  result.statistics = statistics_of(problem, best);
+  result.statistics = statistics_of(problem, best, fit.loss);
   if (fit.refine) {
     listener.on_stage("refined meshes");
     try {
       result.shift = shift_by_refinement(
-          problem, best, evaluate(problem, best.z, false, options, Experiments::measured, Meshes::refined));
+          problem, best, fit.loss, evaluate(problem, best.z, false, options, Experiments::measured, Meshes::refined));
     } catch (const Failed& e) {
       result.refinement_failure = e.what();
     }
@@ -59,7 +59,7 @@ Result run_fit(const Problem& problem, const Fit& fit, JobOptions options, const
   if (!fit.candidates.empty()) {
     listener.on_stage("candidates");
     try {
-      result.candidates = values_of_candidates(problem, best, result.statistics,
+      result.candidates = values_of_candidates(problem, best, fit.loss, result.statistics,
                                                evaluate(problem, best.z, true, options, Experiments::candidates));
     } catch (const Failed& e) {
       result.candidates_failure = e.what();

@@ -22,7 +22,8 @@ std::string interval_line(const FittedParameter& parameter, const Estimate& esti
   const std::string interval = std::isfinite(estimate.deviation)
                                    ? fmt::format("95 % interval {} to {}", shown(estimate.low), shown(estimate.high))
                                    : "the data do not determine it";
-  return fmt::format("# {} = {} {}: {}\n", parameter.name, shown(estimate.value), parameter.unit, interval);
+  return fmt::format("# {} = {}{}{}: {}\n", parameter.name, shown(estimate.value), parameter.unit.empty() ? "" : " ",
+                     parameter.unit, interval);
 }
 
 // The scene with the fitted values, to eight digits.

@@ -15,15 +15,6 @@ namespace orthodyn::study::fit {
 
 namespace {
 
-bool has_path(const Config& scene, const std::string& path) {
-  try {
-    SceneParameter(scene, path);
-    return true;
-  } catch (const ConfigError&) {
-    return false;
-  }
-}
-
 double si_value(const YamlText& value, const std::string& unit) {
   try {
     return read_number(parsed(value), {.unit = unit});
@@ -42,7 +33,7 @@ Problem::Problem(const Fit& fit) : limits_(fit.limits) {
   for (std::size_t p = 0; p < parameters_.size(); ++p)
     for (const std::string& path : parameters_[p].paths)
       for (const PreparedExperiment& experiment : experiments_)
-        if (has_path(experiment.scene, path)) paths.push_back({p, path, experiment.scene});
+        if (has_value_at(experiment.scene, path)) paths.push_back({p, path, experiment.scene});
   set_intervals(coordinates_, paths);
   require_enough_data(fit);
 }
@@ -64,16 +55,17 @@ void Problem::add_parameter(const std::string& name, const Parameter& parameter)
   for (PreparedExperiment& experiment : experiments_) {
     std::vector<std::string>& own = experiment.paths.emplace_back();
     for (const std::string& path : fitted.paths) {
-      if (!has_path(experiment.scene, path)) continue;
+      if (!has_value_at(experiment.scene, path)) continue;
+      SceneParameter(experiment.scene, path);  // throws for a value that cannot be changed
       own.push_back(path);
       if (!first && path == parameter.path && !experiment.is_candidate) first = experiment.scene;
     }
   }
   if (!first) {
     try {
-      SceneParameter(experiments_.front().scene, parameter.path);  // throws
+      value_at(experiments_.front().scene, parameter.path);
     } catch (const ConfigError& e) {
-      parameter.origin.fail(e.what());
+      parameter.origin.fail(e.what());  // names the nearest key
     }
     parameter.origin.fail(fmt::format("no experiment has the number '{}'", parameter.path));
   }

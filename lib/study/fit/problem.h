@@ -40,8 +40,6 @@ struct PreparedExperiment {
 struct Evaluation {
   std::vector<double> computed;                // SI
   std::optional<Eigen::MatrixXd> derivatives;  // d computed / d z
-  std::size_t runs = 0;                        // jobs, including those found on disk
-  double cpu_seconds = 0;                      // of these jobs
 };
 
 // A selection of experiments.

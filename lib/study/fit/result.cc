@@ -202,11 +202,16 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
     out.push_back(
         fmt::format("the search did not converge ({}): give other start values, or more iterations", search.message));
   if (noise.factor > 1)
-    out.push_back(fmt::format(
-        "the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are wrong. The "
-        "intervals are enlarged by this factor",
-        noise.factor));
-  if (noise.runs_probability && *noise.runs_probability < 0.01)
+    out.push_back(
+        fmt::format("the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are "
+                    "wrong{}. The "
+                    "intervals are enlarged by this factor",
+                    noise.factor,
+                    result.attempts.size() == 1 ? ", or a better result is far from the start (try starts: 10)" : ""));
+  // Residuals far below the deviations do not matter, also if they are no noise.
+  constexpr double kNegligible = 0.1;
+  const bool matters = noise.chi_square > kNegligible * static_cast<double>(noise.freedom);
+  if (matters && noise.runs_probability && *noise.runs_probability < 0.01)
     out.push_back(
         "neighbouring residuals have the same sign more often than noise has: the scene lacks something that the "
         "measurement has, and the intervals are too small");

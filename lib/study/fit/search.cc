@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -55,6 +56,29 @@ Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation
     if (at.derivatives) out.derivatives.row(row) = slopes.row(p) / *parameter.deviation;
   }
   return out;
+}
+
+namespace {
+
+// rho'(r^2) of the losses of Ceres with scale 1.
+double weight_of(double residual, Loss loss) {
+  switch (loss) {
+    case Loss::huber: return 1 / std::max(1.0, std::abs(residual));
+    case Loss::cauchy: return 1 / (1 + residual * residual);
+    case Loss::squares: break;
+  }
+  return 1;
+}
+
+}  // namespace
+
+Residuals weighted_by_loss(const Problem& problem, Residuals residuals, const Residuals& weights_at, Loss loss) {
+  for (Eigen::Index i = 0; i < std::ssize(problem.data()); ++i) {
+    const double weight = std::sqrt(weight_of(weights_at.values[i], loss));
+    residuals.values[i] *= weight;
+    if (residuals.derivatives.size() > 0) residuals.derivatives.row(i) *= weight;
+  }
+  return residuals;
 }
 
 std::vector<Vector> starts_of(const Problem& problem, const Fit& fit) {
@@ -178,8 +202,9 @@ class Progress : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (shared_.must_end()) return ceres::SOLVER_ABORT;
-    iterations_.push_back({summary.iteration, 2 * summary.cost, problem_.coordinates().values(z_),
-                           summary.iteration == 0 || summary.step_is_successful});
+    const bool accepted = summary.iteration == 0 || summary.step_is_successful;
+    iterations_.push_back({summary.iteration, 2 * summary.cost, problem_.coordinates().values(z_), accepted,
+                           accepted || summary.step_is_valid ? "" : shared_.failure()});
     on_iteration_(iterations_.back());
     return ceres::SOLVER_CONTINUE;
   }
@@ -235,7 +260,8 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = fit.iterations;
-  solver.parameter_tolerance = solver.function_tolerance = fit.tolerance;
+  solver.parameter_tolerance = fit.tolerance;
+  solver.function_tolerance = std::pow(fit.tolerance, 2);  // near its minimum the sum of squares is quadratic
   solver.gradient_tolerance = 1e-12;
   solver.max_num_consecutive_invalid_steps = 20;
   solver.logging_type = ceres::SILENT;

@@ -18,14 +18,19 @@ struct Residuals {
 // Residuals at z, given the evaluation there.
 Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation& at);
 
-// Weights of data without priors: rows d computed / d z / deviation.
+// The residuals with the weights sqrt(rho'(r^2)) of the loss rho, by which its minimum is one of least squares. Priors
+// have weight 1.
+Residuals weighted_by_loss(const Problem& problem, Residuals residuals, const Residuals& weights_at, Loss loss);
+
+// Rows d computed / d z / deviation of data without priors.
 Eigen::MatrixXd weighted(const Problem& problem, const Eigen::MatrixXd& derivatives, Experiments which);
 
 struct Iteration {
   int number = 0;
-  double chi_square = 0;  // sum of squared residuals
+  double chi_square = 0;  // sum of squared residuals, with the loss
   Vector values;          // parameters, SI
   bool accepted = true;
+  std::string failure;  // why the data could not be computed at a rejected step, or ""
 };
 
 struct Search {

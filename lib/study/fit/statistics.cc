@@ -118,6 +118,12 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
   return out;
 }
 
+// Residuals at the end of the search, with the weights of the loss.
+Residuals at_end(const Problem& problem, const Search& search, Loss loss) {
+  const Residuals residuals = residuals_of(problem, search.z, search.at);
+  return weighted_by_loss(problem, residuals, residuals, loss);
+}
+
 }  // namespace
 
 Knowledge knowledge_of(const Estimate& estimate) {
@@ -126,8 +132,8 @@ Knowledge knowledge_of(const Estimate& estimate) {
   return estimate.deviation_z < kWell ? Knowledge::determined : Knowledge::poorly_determined;
 }
 
-Statistics statistics_of(const Problem& problem, const Search& search) {
-  const Residuals residuals = residuals_of(problem, search.z, search.at);
+Statistics statistics_of(const Problem& problem, const Search& search, Loss loss) {
+  const Residuals residuals = at_end(problem, search, loss);
   const Svd svd = svd_of(residuals.derivatives);
   const Eigen::Index n = search.z.size();
   long rank = 0;
@@ -146,9 +152,10 @@ Statistics statistics_of(const Problem& problem, const Search& search) {
   return out;
 }
 
-Vector shift_by_refinement(const Problem& problem, const Search& search, const Evaluation& refined) {
-  const Residuals own = residuals_of(problem, search.z, search.at);
-  const Residuals finer = residuals_of(problem, search.z, refined);
+Vector shift_by_refinement(const Problem& problem, const Search& search, Loss loss, const Evaluation& refined) {
+  const Residuals own = at_end(problem, search, loss);
+  const Residuals finer = weighted_by_loss(problem, residuals_of(problem, search.z, refined),
+                                           residuals_of(problem, search.z, search.at), loss);
   const Svd svd = svd_of(own.derivatives);
   Vector step = Vector::Zero(search.z.size());
   Eigen::VectorXd change = Eigen::VectorXd::Zero(svd.matrixU().rows());
@@ -159,12 +166,13 @@ Vector shift_by_refinement(const Problem& problem, const Search& search, const E
   return problem.coordinates().derivatives(search.z) * step;
 }
 
-std::vector<CandidateValue> values_of_candidates(const Problem& problem, const Search& search,
+std::vector<CandidateValue> values_of_candidates(const Problem& problem, const Search& search, Loss loss,
                                                  const Statistics& statistics, const Evaluation& at) {
-  // Of what is undetermined without a candidate, only a prior of a factor e makes determinants and traces comparable.
+  // Without a prior, the gains would be infinite if the data leave a parameter undetermined. The prior's standard
+  // deviation is 1 in z: a factor e of a logarithmic parameter.
   constexpr double kPriorDeviation = 1;
   const Eigen::Index n = search.z.size();
-  const Eigen::MatrixXd own = residuals_of(problem, search.z, search.at).derivatives / statistics.noise.factor;
+  const Eigen::MatrixXd own = at_end(problem, search, loss).derivatives / statistics.noise.factor;
   const Eigen::MatrixXd information =
       own.transpose() * own + Eigen::MatrixXd::Identity(n, n) / std::pow(kPriorDeviation, 2);
   const Eigen::MatrixXd rows = weighted(problem, *at.derivatives, Experiments::candidates);

@@ -1,6 +1,7 @@
 // What a fit says about its parameters: intervals, correlations, combinations that the data do not determine, tests of
 // the residuals, and the value of further experiments. All are linearised about the result: with the weighted
-// derivatives J = U S V^T the covariance of the coordinates z is V S^-2 V^T.
+// derivatives J = U S V^T the covariance of the coordinates z is V S^-2 V^T. With a loss other than squares, each
+// residual has the weight that the loss gives it at the result.
 #pragma once
 
 #include <optional>
@@ -49,11 +50,11 @@ struct Statistics {
   NoiseTest noise;
 };
 
-Statistics statistics_of(const Problem& problem, const Search& search);
+Statistics statistics_of(const Problem& problem, const Search& search, Loss loss);
 
 // Change of the parameters by one refinement of the meshes, to first order: the step of Gauss and Newton for the
 // changed data. In SI units.
-Vector shift_by_refinement(const Problem& problem, const Search& search, const Evaluation& refined);
+Vector shift_by_refinement(const Problem& problem, const Search& search, Loss loss, const Evaluation& refined);
 
 // A candidate's effect on the covariance, to first order.
 struct CandidateValue {
@@ -64,7 +65,7 @@ struct CandidateValue {
 };
 
 // `at`: the data of all candidates at the result.
-std::vector<CandidateValue> values_of_candidates(const Problem& problem, const Search& search,
+std::vector<CandidateValue> values_of_candidates(const Problem& problem, const Search& search, Loss loss,
                                                  const Statistics& statistics, const Evaluation& at);
 
 }  // namespace orthodyn::study::fit
