@@ -14,7 +14,8 @@ std::vector<std::string> shipped_scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs")) {
     const auto folder = entry.path().parent_path().filename();
-    const bool other = folder == "comparisons" || folder == "sweeps" || folder == "stability" || folder == "vega";
+    const bool other =
+        folder == "comparisons" || folder == "sweeps" || folder == "stability" || folder == "vega" || folder == "fits";
     if (entry.path().extension() == ".yaml" && !other) files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());

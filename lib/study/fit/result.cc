@@ -78,7 +78,7 @@ Json parameter_json(const Problem& problem, const Result& result, std::size_t p)
            {"high", shown(estimate.high)},
            {"start", shown(parameter.start)},
            {"relative", problem.coordinates().is_log(p)},
-           {"knowledge", word_of(knowledge_of(estimate))},
+           {"knowledge", word_of(estimate.knowledge)},
            {"precision", std::isfinite(estimate.deviation) ? precision(problem, estimate, p) : "unknown"},
            {"at_bound", estimate.at_bound}};
   out["prior"] =
@@ -153,6 +153,28 @@ Json candidates_json(const Problem& problem, const Result& result) {
   return out;
 }
 
+// Warnings about measured modes whose computed frequencies are nearly equal: they are matched by their order, which may
+// be that of other shapes.
+std::vector<std::string> close_modes(const Problem& problem, const Evaluation& at) {
+  std::vector<std::string> out;
+  std::size_t first = 0;
+  for (const PreparedExperiment& experiment : problem.experiments()) {
+    if (experiment.is_candidate) continue;
+    for (std::size_t i = 0; i + 1 < experiment.data.size(); ++i) {
+      const Datum &lower = experiment.data[i], &upper = experiment.data[i + 1];
+      if (!lower.metric.mode || !upper.metric.mode || *upper.metric.mode != *lower.metric.mode + 1) continue;
+      const double gap = at.computed[first + i + 1] - at.computed[first + i];
+      if (gap > lower.deviation + upper.deviation) continue;
+      out.push_back(fmt::format(
+          "{}: the computed frequencies of modes {} and {} differ by less than their deviations. Modes are matched by "
+          "their order, so the search can end at a crossing of two modes: try another start or starts: 10",
+          experiment.name, *lower.metric.mode, *upper.metric.mode));
+    }
+    first += experiment.data.size();
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> findings(const Problem& problem, const Result& result) {
@@ -161,7 +183,7 @@ std::vector<std::string> findings(const Problem& problem, const Result& result) 
   for (std::size_t p = 0; p < statistics.estimates.size(); ++p) {
     const Estimate& estimate = statistics.estimates[p];
     const std::string& name = problem.parameters()[p].name;
-    switch (knowledge_of(estimate)) {
+    switch (estimate.knowledge) {
       case Knowledge::determined: determined.push_back(name + " " + precision(problem, estimate, p)); break;
       case Knowledge::poorly_determined: poor.push_back(name + " " + precision(problem, estimate, p)); break;
       case Knowledge::undetermined: nothing.push_back(name); break;
@@ -195,7 +217,7 @@ std::vector<std::string> findings(const Problem& problem, const Result& result) 
 }
 
 std::vector<std::string> warnings(const Problem& problem, const Result& result) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = close_modes(problem, result.search().at);
   const Search& search = result.search();
   const NoiseTest& noise = result.statistics.noise;
   if (!search.converged)

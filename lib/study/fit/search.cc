@@ -261,7 +261,8 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = fit.iterations;
   solver.parameter_tolerance = fit.tolerance;
-  solver.function_tolerance = std::pow(fit.tolerance, 2);  // near its minimum the sum of squares is quadratic
+  // Near its minimum the sum of squares is quadratic; smaller changes of it are rounding errors.
+  solver.function_tolerance = std::max(std::pow(fit.tolerance, 2), 1e-13);
   solver.gradient_tolerance = 1e-12;
   solver.max_num_consecutive_invalid_steps = 20;
   solver.logging_type = ceres::SILENT;

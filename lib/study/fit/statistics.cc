@@ -76,6 +76,13 @@ NoiseTest noise_test(const Residuals& residuals, std::size_t data, long rank) {
   return out;
 }
 
+Knowledge knowledge_of(const Estimate& estimate, bool is_ratio) {
+  constexpr double kNothing = 1, kWell = 0.1, kWellOfRatios = 0.05;
+  if (!(estimate.deviation_z < kNothing)) return Knowledge::undetermined;
+  const bool is_well = is_ratio ? estimate.deviation < kWellOfRatios : estimate.deviation_z < kWell;
+  return is_well ? Knowledge::determined : Knowledge::poorly_determined;
+}
+
 Estimate estimate_of(const Problem& problem, const Vector& z, const Vector& values, const Eigen::MatrixXd& slopes,
                      const Eigen::MatrixXd& covariance, Eigen::Index p) {
   Estimate out;
@@ -100,6 +107,7 @@ Estimate estimate_of(const Problem& problem, const Vector& z, const Vector& valu
     out.low = out.value - kNormal95 * out.deviation;
     out.high = out.value + kNormal95 * out.deviation;
   }
+  out.knowledge = knowledge_of(out, problem.coordinates().is_ratio(index));
   const FittedParameter& parameter = problem.parameters()[index];
   const auto is_at = [&](const std::optional<double>& bound) {
     return bound && std::abs(z[p] - problem.coordinates().at(index, *bound)) < 1e-9 * (1 + std::abs(z[p]));
@@ -125,12 +133,6 @@ Residuals at_end(const Problem& problem, const Search& search, Loss loss) {
 }
 
 }  // namespace
-
-Knowledge knowledge_of(const Estimate& estimate) {
-  constexpr double kWell = 0.1, kNothing = 1;  // of the coordinate: 10 %, and a factor e
-  if (!(estimate.deviation_z < kNothing)) return Knowledge::undetermined;
-  return estimate.deviation_z < kWell ? Knowledge::determined : Knowledge::poorly_determined;
-}
 
 Statistics statistics_of(const Problem& problem, const Search& search, Loss loss) {
   const Residuals residuals = at_end(problem, search, loss);

@@ -18,17 +18,19 @@ struct Direction {
   Eigen::VectorXd weights;  // of the coordinates; a unit vector
 };
 
+// How well the data determine a parameter. Undetermined: the standard deviation of its coordinate is at least 1, a
+// factor e of a logarithmic one. Determined: it is below 0.1 (10 %, or 0.1 rad); of a Poisson's ratio, that of the
+// value is below 0.05.
+enum class Knowledge { determined, poorly_determined, undetermined };
+
 // Result for one parameter, in SI units.
 struct Estimate {
   double value = 0, deviation = 0;  // standard deviation, to first order
   double low = 0, high = 0;         // 95 % interval; of a log coordinate value / f and value * f
   double deviation_z = 0;           // of the coordinate
+  Knowledge knowledge = Knowledge::undetermined;
   bool at_bound = false;
 };
-
-// How well the data determine a parameter, by the standard deviation of its coordinate.
-enum class Knowledge { determined, poorly_determined, undetermined };
-Knowledge knowledge_of(const Estimate& estimate);
 
 struct NoiseTest {
   double chi_square = 0;  // of data and priors
