@@ -115,8 +115,8 @@ TEST(EquilibriumSensitivity, AtLargeDisplacementsIsTheLimitOfDifferences) {
   EXPECT_GE(checked, 14);  // of 20
 }
 
-// A column under more than its buckling load, in its straight and unstable equilibrium: K is indefinite. The end moves by
-// u = -F L / (E A) there, so du/dE = -u / E.
+// A column under more than its buckling load, in its straight and unstable equilibrium: K is indefinite. The end moves
+// by u = -F L / (E A) there, so du/dE = -u / E.
 TEST(EquilibriumSensitivity, ExistsOnAnUnstableBranch) {
   const Equilibrium column(std::string(R"(
 analysis: static
