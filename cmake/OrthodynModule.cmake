@@ -100,7 +100,7 @@ function(orthodyn_library)
   target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json PRIVATE
     yaml-cpp muparser::muparser Udunits2::udunits2 pugixml::pugixml ZLIB::ZLIB TBB::tbb SuiteSparse::cholmod SuiteSparse::klu
     ${CMAKE_DL_LIBS}
-    SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
+    SUNDIALS::arkode SUNDIALS::cvodes SUNDIALS::idas SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
     SUNDIALS::sunmatrixsparse $<$<BOOL:${ORTHODYN_CERES}>:Ceres::ceres>)
   if(ORTHODYN_SANITIZE)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)

@@ -20,6 +20,9 @@ class Automatic : public Integrator {
   void start(const State& state) override { integrator_->start(state); }
   StepInfo step(double t_stop) override { return integrator_->step(t_stop); }
   void interpolate(double t, State& out) const override { integrator_->interpolate(t, out); }
+  void interpolate_sensitivity(int i, double t, State& out) const override {
+    integrator_->interpolate_sensitivity(i, t, out);
+  }
   bool adaptive() const override { return integrator_->adaptive(); }
   bool has_accurate_interpolation() const override { return integrator_->has_accurate_interpolation(); }
   double smooth_time() const override { return integrator_->smooth_time(); }
@@ -72,6 +75,9 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
   bool runs_on_ranks() const override {
     return !method || *method == "modal" || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
   }
+  bool computes_sensitivities() const override {
+    return !method || Registry<IntegratorChoice>::entries().at(*method).make()->computes_sensitivities();
+  }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // needed even if both scales are given
@@ -99,6 +105,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
   bool is_settled(const Model& model) const { return method && (*method != "modal" || allows_modes(model)); }
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
+    if (task.sensitivities) return {.method = "cvode_bdf", .rationale = "it integrates sensitivities with the motion"};
     // central_differences cannot limit its steps by h0, h_min and h_max.
     const bool limits_steps = h0 || h_max || h_min > 0;
     const CostEstimate cost = estimate_cost(model, task, own, linear_solver);

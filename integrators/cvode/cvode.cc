@@ -1,9 +1,11 @@
 #include "integrators/cvode/cvode.h"
 
-#include <cvode/cvode.h>
-#include <cvode/cvode_ls.h>
+#include <cvodes/cvodes.h>
+#include <cvodes/cvodes_ls.h>
+#include <fmt/format.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
 
@@ -24,13 +26,23 @@ struct FreeCvode {
 
 class Cvode final : public SundialsIntegrator {
  public:
-  Cvode(const CvodeMethod& method, const Model& model, const Options& options, const Scales& scales)
+  Cvode(const CvodeMethod& method, const Model& model, const Options& options, const Scales& scales,
+        SensitivityEquations* sensitivities)
       : SundialsIntegrator(method.name, kCvodeCalls, model, options, scales, !method.anderson),
         method_(method),
         memory_(CVodeCreate(method.family, context_)) {
     check_mass_for_full_jacobian();
     if (!memory_) throw RunError("CVODE could not be created");
     if (method.family == CV_BDF) decisions_.emplace_back("max_order", std::to_string(method.max_order));
+    if (sensitivities) sensitivities_.emplace(*sensitivities, model, y(), callback_context_, statistics_);
+  }
+
+  void interpolate_sensitivity(int i, double t, State& out) const override {
+    const OwnedVector dense(N_VClone(y()));
+    if (CVodeGetSensDky1(memory(), t, 0, i, dense.get()) < 0)
+      throw RunError(fmt::format("CVODES cannot interpolate the sensitivities at t = {:.17g} s: {}", t,
+                                 callback_context_.message));
+    out = ForwardSensitivities::state(t, dense.get());
   }
 
  private:
@@ -46,9 +58,24 @@ class Cvode final : public SundialsIntegrator {
     method_.anderson ? use_fixed_point() : use_newton();
     require(CVodeSetNonlinConvCoef(m, options_.nonlinear_coefficient));
     require(CVodeSetMaxNonlinIters(m, options_.max_newton_iterations));
+    if (sensitivities_) start_sensitivities();
   }
 
-  void reinitialise(double t) override { require(CVodeReInit(memory(), t, y())); }
+  void start_sensitivities() {
+    void* m = memory();
+    sensitivities_->start();
+    require(CVodeSensInit1(m, sensitivities_->count(), CV_STAGGERED, sensitivity_derivative, sensitivities_->values()));
+    require(CVodeSetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
+    require(CVodeSensEEtolerances(m));  // the weights of the motion, times the scale of the parameter
+    require(CVodeSetSensErrCon(m, 1));
+  }
+
+  // Sensitivities are continuous at t, the end of the last step.
+  void reinitialise(double t) override {
+    if (sensitivities_) require(CVodeGetSensDky(memory(), t, 0, sensitivities_->values()));
+    require(CVodeReInit(memory(), t, y()));
+    if (sensitivities_) require(CVodeSensReInit(memory(), CV_STAGGERED, sensitivities_->values()));
+  }
 
   int advance(double t_stop, double& t) override {
     require(CVodeSetStopTime(memory(), t_stop));
@@ -69,6 +96,10 @@ class Cvode final : public SundialsIntegrator {
       case CV_CONV_FAILURE:
       case CV_LSETUP_FAIL:
       case CV_NLS_FAIL: return Reason::newton;
+      case CV_SRHSFUNC_FAIL:
+      case CV_FIRST_SRHSFUNC_ERR:
+      case CV_REPTD_SRHSFUNC_ERR:
+      case CV_UNREC_SRHSFUNC_ERR:
       case CV_RHSFUNC_FAIL:
       case CV_FIRST_RHSFUNC_ERR:
       case CV_REPTD_RHSFUNC_ERR:
@@ -79,7 +110,9 @@ class Cvode final : public SundialsIntegrator {
     }
   }
 
-  std::size_t own_bytes() const override { return secant_newton_ ? secant_newton_->bytes() : 0; }
+  std::size_t own_bytes() const override {
+    return (secant_newton_ ? secant_newton_->bytes() : 0) + (sensitivities_ ? sensitivities_->bytes() : 0);
+  }
 
   std::string iteration_failure() const override {
     if (!method_.anderson) return SundialsIntegrator::iteration_failure();
@@ -120,6 +153,11 @@ class Cvode final : public SundialsIntegrator {
     return me.evaluate_acceleration(me.model_, t, y, velocities(y_dot));
   }
 
+  static int sensitivity_derivative(int, sunrealtype t, N_Vector y, N_Vector y_dot, int i, N_Vector s, N_Vector s_dot,
+                                    void* user, N_Vector, N_Vector) {
+    return self(user).sensitivities_->first_order(i, t, y, y_dot, s, s_dot);
+  }
+
   static int linearize(sunrealtype t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype keep, sunbooleantype* renewed,
                        sunrealtype, void* user, N_Vector, N_Vector, N_Vector) {
     return self(user).newton_system_->linearize(t, y, keep, renewed);
@@ -130,6 +168,7 @@ class Cvode final : public SundialsIntegrator {
   }
 
   CvodeMethod method_;
+  std::optional<ForwardSensitivities> sensitivities_;
   std::optional<SecantNewton> secant_newton_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
   std::unique_ptr<void, FreeCvode> memory_;
@@ -138,8 +177,8 @@ class Cvode final : public SundialsIntegrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_cvode(const CvodeMethod& method, const Model& model, const Options& options,
-                                       const Scales& scales) {
-  return std::make_unique<Cvode>(method, model, options, scales);
+                                       const Scales& scales, SensitivityEquations* sensitivities) {
+  return std::make_unique<Cvode>(method, model, options, scales, sensitivities);
 }
 
 }  // namespace orthodyn::sundials

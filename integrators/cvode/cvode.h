@@ -1,4 +1,5 @@
-// CVODE's linear multistep methods (Hindmarsh et al. 2005): BDF and Adams-Moulton.
+// CVODE's linear multistep methods (Hindmarsh et al. 2005): BDF and Adams-Moulton. The library is CVODES, which is
+// CVODE with forward sensitivities (Serban & Hindmarsh 2005).
 #pragma once
 
 #include <memory>
@@ -17,8 +18,9 @@ struct CvodeMethod {
   std::optional<int> anderson = {};
 };
 
-// Throws ConfigError if the linear solver does not accept the model's matrices. `model` must outlive the integrator.
+// Throws ConfigError if the linear solver does not accept the model's matrices. `model` and `sensitivities`, which may
+// be null, must outlive the integrator.
 std::unique_ptr<Integrator> make_cvode(const CvodeMethod& method, const Model& model, const Options& options,
-                                       const Scales& scales);
+                                       const Scales& scales, SensitivityEquations* sensitivities);
 
 }  // namespace orthodyn::sundials

@@ -1,6 +1,6 @@
 // CVODE's Adams-Moulton methods (Hindmarsh et al. 2005): variable order 1-12, variable step. For smooth, lightly damped
 // motion at tight tolerances; high orders are stable only for short steps.
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 
 #include "integrators/cvode/cvode.h"
 
@@ -39,10 +39,11 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
                         "linear invariants (momentum)", "Hindmarsh et al., ACM TOMS 31, 2005; Byrne & Hindmarsh 1975");
   }
   bool runs_on_ranks() const override { return true; }
+  bool computes_sensitivities() const override { return nonlinear == StepIteration::newton; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     CvodeMethod method{"cvode_adams", CV_ADAMS, max_order};
     if (nonlinear == StepIteration::fixed_point) method.anderson = anderson;
-    return make_cvode(method, model, *this, scales(task));
+    return make_cvode(method, model, *this, scales(task), task.sensitivities);
   }
 
   StepIteration nonlinear = StepIteration::newton;

@@ -1,5 +1,5 @@
 // CVODE's BDF (Hindmarsh et al. 2005): variable order 1-5, variable step, modified Newton.
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 
 #include "integrators/cvode/cvode.h"
 #include "integrators/sundials/bdf_order.h"
@@ -19,10 +19,11 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options {
                         "Hindmarsh et al., ACM TOMS 31, 2005; Curtiss & Hirschfelder 1952");
   }
   bool runs_on_ranks() const override { return true; }
+  bool computes_sensitivities() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
-    return make_cvode({"cvode_bdf", CV_BDF, order}, model, *this, sizes);
+    return make_cvode({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task.sensitivities);
   }
 
   std::optional<int> max_order;

@@ -1,10 +1,13 @@
 // IDA's BDF on the implicit system F = (q' - v, M v' - f) = 0 (Hindmarsh et al. 2005): fixed leading coefficient,
-// variable order 1-5. With a consistent mass, steps solve no systems with M alone.
-#include <ida/ida.h>
-#include <ida/ida_ls.h>
+// variable order 1-5. With a consistent mass, steps solve no systems with M alone. The library is IDAS, which is IDA
+// with forward sensitivities.
+#include <fmt/format.h>
+#include <idas/idas.h>
+#include <idas/idas_ls.h>
 
 #include "integrators/run_checks.h"
 #include "integrators/sundials/bdf_order.h"
+#include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/sundials_integrator.h"
 
 namespace orthodyn::sundials {
@@ -18,7 +21,8 @@ constexpr LibraryCalls kIdaCalls = ORTHODYN_LIBRARY_CALLS(IDA);
 
 class IdaBdf final : public SundialsIntegrator {
  public:
-  IdaBdf(const Model& model, const Options& options, const Scales& scales, int max_order)
+  IdaBdf(const Model& model, const Options& options, const Scales& scales, int max_order,
+         SensitivityEquations* sensitivities)
       : SundialsIntegrator("ida_bdf", kIdaCalls, model, options, scales, true),
         max_order_(max_order),
         momentum_(model.num_dofs()),
@@ -26,6 +30,15 @@ class IdaBdf final : public SundialsIntegrator {
         memory_(IDACreate(context_)) {
     if (!memory_) throw RunError("IDA could not be created");
     decisions_.emplace_back("max_order", std::to_string(max_order));
+    if (sensitivities) sensitivities_.emplace(*sensitivities, model, y(), callback_context_, statistics_);
+  }
+
+  void interpolate_sensitivity(int i, double t, State& out) const override {
+    const OwnedVector dense(N_VClone(y()));
+    if (IDAGetSensDky1(memory(), t, 0, i, dense.get()) < 0)
+      throw RunError(
+          fmt::format("IDAS cannot interpolate the sensitivities at t = {:.17g} s: {}", t, callback_context_.message));
+    out = ForwardSensitivities::state(t, dense.get());
   }
 
  private:
@@ -45,11 +58,28 @@ class IdaBdf final : public SundialsIntegrator {
     newton_system_->create_residual(context_);
     attach_linear_solver();
     require(IDASetJacFn(m, linearize));
+    if (sensitivities_) start_sensitivities(t);
   }
 
+  void start_sensitivities(double t) {
+    void* m = memory();
+    sensitivities_->start();
+    sensitivities_->make_consistent(t, y(), y_dot_.get());
+    require(IDASensInit(m, sensitivities_->count(), IDA_STAGGERED, sensitivity_residual, sensitivities_->values(),
+                        sensitivities_->derivatives()));
+    require(IDASetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
+    require(IDASensEEtolerances(m));  // the weights of the motion, times the scale of the parameter
+    require(IDASetSensErrCon(m, 1));
+  }
+
+  // Sensitivities are continuous at t, the end of the last step.
   void reinitialise(double t) override {
+    if (sensitivities_) require(IDAGetSensDky(memory(), t, 0, sensitivities_->values()));
     make_consistent(t);
     require(IDAReInit(memory(), t, y(), y_dot_.get()));
+    if (!sensitivities_) return;
+    sensitivities_->make_consistent(t, y(), y_dot_.get());
+    require(IDASensReInit(memory(), IDA_STAGGERED, sensitivities_->values(), sensitivities_->derivatives()));
   }
 
   int advance(double t_stop, double& t) override {
@@ -72,6 +102,8 @@ class IdaBdf final : public SundialsIntegrator {
       case IDA_LSETUP_FAIL:
       case IDA_NLS_FAIL: return Reason::newton;
       case IDA_RES_FAIL:
+      case IDA_SRES_FAIL:
+      case IDA_REP_SRES_ERR:
       case IDA_REP_RES_ERR:
       case IDA_FIRST_RES_FAIL: return Reason::force;
       default: return Reason::other;
@@ -104,9 +136,17 @@ class IdaBdf final : public SundialsIntegrator {
     return self(user).newton_system_->linearize_residual(t, cj, y, J);
   }
 
+  static int sensitivity_residual(int, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* s,
+                                  N_Vector* s_dot, N_Vector* out, void* user, N_Vector, N_Vector, N_Vector) {
+    return self(user).sensitivities_->residual(t, y, y_dot, s, s_dot, out);
+  }
+
+  std::size_t own_bytes() const override { return sensitivities_ ? sensitivities_->bytes() : 0; }
+
   int max_order_;
   Vector momentum_;
   OwnedVector y_dot_;
+  std::optional<ForwardSensitivities> sensitivities_;
   std::unique_ptr<void, FreeIda> memory_;
 };
 
@@ -122,9 +162,11 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options {
                         "Hindmarsh et al., ACM TOMS 31, 2005; Brenan, Campbell & Petzold 1996");
   }
   bool runs_on_ranks() const override { return true; }
+  bool computes_sensitivities() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
-    return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes));
+    return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes),
+                                    task.sensitivities);
   }
 
   std::optional<int> max_order;

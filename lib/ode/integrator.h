@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,8 @@
 #include "lib/ode/statistics.h"
 
 namespace orthodyn {
+
+class SensitivityEquations;  // lib/ode/sensitivity_equations.h
 
 struct StepInfo {
   double t = 0;  // the time reached
@@ -37,6 +40,12 @@ class Integrator {
 
   // Computes the solution at a time within the last step.
   virtual void interpolate(double t, State& out) const = 0;
+
+  // Computes the derivative of the solution with respect to parameter i of Task::sensitivities, at a time within the
+  // last step; before the first step, at the start. Precondition: the task has sensitivities.
+  virtual void interpolate_sensitivity(int /*i*/, double /*t*/, State& /*out*/) const {
+    throw std::logic_error("the integrator computes no sensitivities");
+  }
 
   // True if error control chooses the step sizes. Adaptive steps are also limited by Model::step_limits().
   virtual bool adaptive() const { return true; }
@@ -86,6 +95,9 @@ struct Task {
   State initial;
   double end = 0;              // s
   double output_interval = 0;  // approximate, s; 0 if unknown
+  // Derivatives with respect to parameters, which are integrated with the motion; null if none are wanted. They must
+  // outlive the integrator, and serve one integrator at a time.
+  SensitivityEquations* sensitivities = nullptr;
 };
 
 // Properties of a method, shown in lists; the static facts() of a choice returns them.
@@ -114,6 +126,9 @@ class IntegratorChoice {
 
   // True if the method accepts distributed models: it computes all sums over entries of vectors by Model::space().
   virtual bool runs_on_ranks() const { return false; }
+
+  // True if the method integrates Task::sensitivities.
+  virtual bool computes_sensitivities() const { return false; }
 
   // Throws ConfigError if the integrator does not accept the model. The model must outlive the integrator.
   virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;

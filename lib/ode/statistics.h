@@ -16,6 +16,7 @@ struct Statistics {
   long newton_iterations = 0;
   long gauss_newton_fallbacks = 0;  // replacements of an indefinite K by its Gauss-Newton part
   Cost force, tangent, factorization, solve;
+  Cost sensitivity = {};  // right-hand sides of sensitivities
   Cost modes = {};        // computation of the modes of a reduced model, including its linear solutions
   Cost observation = {};  // output, events and extremes; counted by the run loop
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "lib/material/material.h"
@@ -37,6 +38,15 @@ const Spec<Clamp>& Clamp::spec() {
                                 config.at("components").fail("is empty; give some of x, y, z");
                             });
   return s;
+}
+
+ParameterPaths Value<ParameterPaths>::read(const Config& c, const Rule& r) {
+  const auto paths = Value<std::vector<std::string>>::read(c, r);
+  ParameterPaths out(paths.begin(), paths.end());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (std::count(out.begin(), out.end(), out[i]) > 1) c.at(i).fail(fmt::format("'{}' is given twice", out[i]));
+  out.origin = {c.where()};
+  return out;
 }
 
 const Spec<Statics>& Statics::spec() {
@@ -90,6 +100,10 @@ const Spec<Scene>& Scene::spec() {
           .key("events", &Scene::events,
                "Thresholds of quantities; a crossing is logged to events.csv or ends the run.", {.with = kDynamic})
           .key("output", &Scene::output, "Output files.")
+          .key("sensitivities", &Scene::sensitivities,
+               "Numbers of the scene by their paths, such as materials.wood.young.0: sensitivities.csv gets the "
+               "derivatives of probes, reactions and energies with respect to them. For analysis: static, and for "
+               "motions with cvode_bdf, cvode_adams or ida_bdf.")
           .key("checkpoint", &Scene::checkpoint,
                "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {}: every "
                "minute.",
@@ -336,6 +350,18 @@ void require_countable_times(const Config& config, const Scene& scene) {
         .fail(fmt::format("gives {:.2g} rows, more than {:.0e}; increase it", span / *history->interval, kMost));
 }
 
+void check_sensitivities(const Scene& scene) {
+  if (scene.sensitivities.empty()) return;
+  if (scene.analysis == Analysis::buckling || scene.analysis == Analysis::harmonic)
+    scene.sensitivities.origin.fail(
+        "are computed for analysis: dynamic and static only; those of natural frequencies by `orthodyn modes "
+        "--sensitivity`");
+  if (scene.integrator && !scene.integrator->computes_sensitivities())
+    scene.sensitivities.origin.fail(
+        "are integrated with the motion, which this integrator does not do: set integrator.type to cvode_bdf, "
+        "ida_bdf, or cvode_adams with Newton's method");
+}
+
 Places places_of(const Config& config) {
   std::map<std::string, std::string> sections;
   for (const std::string& key : config.keys()) sections[key] = config.at(key).where();
@@ -359,6 +385,7 @@ Scene read_scene(const Config& input) {
     case Analysis::harmonic: check_harmonic(config, scene, is_timed); break;
   }
   if (scene.analysis != Analysis::harmonic) refuse_harmonic_factors(config, scene);
+  check_sensitivities(scene);
   check_expectations(scene);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");

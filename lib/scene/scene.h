@@ -67,6 +67,18 @@ struct Buckling {
   static const Spec<Buckling>& spec();
 };
 
+// Paths of numbers of the scene (lib/simulation/sensitivity/scene_parameter.h).
+struct ParameterPaths : std::vector<std::string> {
+  using vector::vector;
+  SourceLocation origin = {};
+};
+template <>
+struct Value<ParameterPaths> {
+  static ValueSchema schema() { return Value<std::vector<std::string>>::schema(); }
+  static ParameterPaths read(const Config& c, const Rule& r);
+  static std::string yaml(const ParameterPaths& x) { return Value<std::vector<std::string>>::yaml(x); }
+};
+
 inline constexpr Range kThreads{1, 1024};  // allowed values of `threads`
 
 struct Scene {
@@ -92,6 +104,7 @@ struct Scene {
   std::optional<Harmonic> harmonic;                    // for analysis: harmonic
   std::vector<EventSpec> events;
   Output output;
+  ParameterPaths sensitivities;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
   std::optional<int> threads;  // empty: number of hardware threads (RunThreads)

@@ -43,6 +43,7 @@ void print_costs(const RunResult& result) {
   print_cost("tangent", s.tangent);
   print_cost("factorisation", s.factorization);
   print_cost("solve", s.solve);
+  if (s.sensitivity.count > 0) print_cost("sensitivities", s.sensitivity);
   if (s.modes.count > 0) print_cost("modes", s.modes);
   if (s.observation.count > 0) print_observation(result, s.observation);
 }

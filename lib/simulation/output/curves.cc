@@ -24,33 +24,43 @@ OutputInfo info_of(const Model& model, const std::string& field) {
   return *std::find_if(all.begin(), all.end(), [&](const auto& info) { return info.name == field; });
 }
 
-std::vector<ProbeColumn> with_components(const Model& model, std::vector<ProbeColumn> columns) {
-  for (auto& column : columns) {
-    const OutputInfo info = info_of(model, column.field);
-    column.components = info.components;
-    column.at_node = info.location == Location::node;
-  }
-  return columns;
-}
-
-std::vector<std::string> probe_header(const Model& model, const std::vector<ProbeColumn>& columns,
-                                      const std::string& t) {
-  std::vector<std::string> header{t};
-  for (const auto& column : columns) {
-    const auto info = info_of(model, column.field);
-    for (int c = 0; c < info.components; ++c)
-      header.push_back(fmt::format(
-          "{}{}{} [{}]", column.name.empty() ? "" : column.name + ".", column.field,
-          info.component_names.empty() ? "" : "." + info.component_names[static_cast<std::size_t>(c)], info.unit));
-  }
+std::vector<std::string> probe_header(const ProbeColumns& columns, const std::string& axis) {
+  std::vector<std::string> header{axis};
+  for (const auto& [name, unit] : columns.names_and_units()) header.push_back(fmt::format("{} [{}]", name, unit));
   return header;
 }
 
 }  // namespace
 
+ProbeColumns::ProbeColumns(const Model& model, std::vector<ProbeColumn> columns) : columns_(std::move(columns)) {
+  for (auto& column : columns_) {
+    const OutputInfo info = info_of(model, column.field);
+    column.components = info.components;
+    column.at_node = info.location == Location::node;
+    const std::string whole = (column.name.empty() ? "" : column.name + ".") + column.field;
+    for (int c = 0; c < info.components; ++c)
+      names_and_units_.emplace_back(
+          info.component_names.empty() ? whole : whole + "." + info.component_names[static_cast<std::size_t>(c)],
+          info.unit);
+  }
+}
+
+std::vector<double> ProbeColumns::values(const ObservedState& observed) const {
+  std::vector<double> all;
+  for (const auto& column : columns_) {
+    const auto values = column.at_node ? observed.evaluate_at(column.field, column.node, column.components)
+                                       : observed.evaluate(column.field);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
 ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
                          const std::string& axis)
-    : TableWriter(path, probe_header(model, columns, axis)), columns_(with_components(model, std::move(columns))) {}
+    : ProbeWriter(path, ProbeColumns(model, std::move(columns)), axis) {}
+
+ProbeWriter::ProbeWriter(const std::filesystem::path& path, ProbeColumns columns, const std::string& axis)
+    : TableWriter(path, probe_header(columns, axis)), columns_(std::move(columns)) {}
 
 void ProbeWriter::on_start(const ObservedState& observed) {
   TableWriter::on_start(observed);
@@ -59,11 +69,8 @@ void ProbeWriter::on_start(const ObservedState& observed) {
 
 void ProbeWriter::on_history(const ObservedState& observed) {
   std::vector<double> row{observed.t()};
-  for (const auto& column : columns_) {
-    const auto values = column.at_node ? observed.evaluate_at(column.field, column.node, column.components)
-                                       : observed.evaluate(column.field);
-    row.insert(row.end(), values.begin(), values.end());
-  }
+  const auto values = columns_.values(observed);
+  row.insert(row.end(), values.begin(), values.end());
   file_.row(row);
 }
 

@@ -77,8 +77,20 @@ struct ProbeColumn {
   std::string name;      // "tip"; empty for an output of the whole body
   int node;              // 0 for an output of the whole body
   std::string field;     // a nodal output such as "displacement", or "reaction.clamp_1"
-  int components = 0;    // number of the field's components; set by ProbeWriter
-  bool at_node = false;  // whether it is a nodal output; set by ProbeWriter
+  int components = 0;    // number of the field's components; set by ProbeColumns
+  bool at_node = false;  // whether it is a nodal output; set by ProbeColumns
+};
+
+// The columns with their numbers of components, and the name and unit of each component: "tip.displacement.x", "m".
+class ProbeColumns {
+ public:
+  ProbeColumns(const Model& model, std::vector<ProbeColumn> columns);
+  const std::vector<std::pair<std::string, std::string>>& names_and_units() const { return names_and_units_; }
+  std::vector<double> values(const ObservedState& observed) const;
+
+ private:
+  std::vector<ProbeColumn> columns_;
+  std::vector<std::pair<std::string, std::string>> names_and_units_;
 };
 
 class ProbeWriter : public TableWriter {
@@ -90,7 +102,8 @@ class ProbeWriter : public TableWriter {
   void on_history(const ObservedState& observed) override;
 
  private:
-  std::vector<ProbeColumn> columns_;
+  ProbeWriter(const std::filesystem::path& path, ProbeColumns columns, const std::string& axis);
+  ProbeColumns columns_;
 };
 
 // events.csv: time, name, value and direction of each event.

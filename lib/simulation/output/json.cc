@@ -1,7 +1,5 @@
 #include "lib/simulation/output/json.h"
 
-#include <string_view>
-
 namespace orthodyn {
 
 Json to_json(const Statistics& statistics) {
@@ -16,7 +14,7 @@ Statistics statistics_from(const Json& json) {
   Statistics out;
   for (const auto& [name, count] : kStatisticsCounts) out.*count = json.at(name);
   for (const auto& [name, cost] : kStatisticsCosts) {
-    if (std::string_view(name) == "observation" && !json.contains(name)) continue;  // absent in older results
+    if (!json.contains(name)) continue;  // absent in older results
     out.*cost = {json.at(name).at("count"), json.at(name).at("seconds")};
   }
   return out;

@@ -19,8 +19,13 @@ inline constexpr std::pair<const char*, long Statistics::*> kStatisticsCounts[] 
     {"newton_iterations", &Statistics::newton_iterations},
     {"gauss_newton_fallbacks", &Statistics::gauss_newton_fallbacks}};
 inline constexpr std::pair<const char*, Cost Statistics::*> kStatisticsCosts[] = {
-    {"force", &Statistics::force}, {"tangent", &Statistics::tangent}, {"factorization", &Statistics::factorization},
-    {"solve", &Statistics::solve}, {"modes", &Statistics::modes},     {"observation", &Statistics::observation}};
+    {"force", &Statistics::force},
+    {"tangent", &Statistics::tangent},
+    {"factorization", &Statistics::factorization},
+    {"solve", &Statistics::solve},
+    {"sensitivity", &Statistics::sensitivity},
+    {"modes", &Statistics::modes},
+    {"observation", &Statistics::observation}};
 
 Json to_json(const Statistics& statistics);
 Statistics statistics_from(const Json& json);

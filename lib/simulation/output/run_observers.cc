@@ -29,6 +29,8 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
+  if (setup.sensitivities)
+    sensitivities_.emplace(folder / "sensitivities.csv", scene, model, *setup.integrator, *setup.sensitivities);
   if (!scene.output.extremes.empty()) extremes.emplace(scene.output.extremes, model, scene.output.origin);
   if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
@@ -44,6 +46,7 @@ NamedObservers RunObservers::checkpointed() {
   add("momentum", momentum);
   add("steps", steps_);
   add("probes", probes_);
+  add("sensitivities", sensitivities_);
   add("events", events_);
   add("extremes", extremes);
   add("strains", strains);

@@ -12,6 +12,7 @@
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/sensitivity/sensitivity_table.h"
 
 namespace orthodyn {
 
@@ -47,6 +48,7 @@ class RunObservers {
   std::optional<SetupWriter> setup_;
   std::optional<StepWriter> steps_;
   std::optional<ProbeWriter> probes_;
+  std::optional<SensitivityWriter> sensitivities_;
   EventFinder finder_;
   std::optional<EventWriter> events_;
 };

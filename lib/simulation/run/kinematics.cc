@@ -130,16 +130,27 @@ Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const
 
 bool leaves_kinematics_open(const Scene& scene) { return !open_regions(scene).empty(); }
 
-void make_corotational(Config& config) {
-  const std::string corotational = "corotational";
+namespace {
+
+void replace_auto(Config& config, const std::string& kinematics) {
   if (config.has("elasticity")) {
     Config elasticity = config.at("elasticity");
-    if (says_auto(elasticity)) elasticity.set("kinematics", corotational);
+    if (says_auto(elasticity)) elasticity.set("kinematics", kinematics);
     if (elasticity.has("linear_error")) elasticity.set("linear_error", nullptr);
   }
   if (!config.has("regions")) return;
   for (const auto& name : config.at("regions").keys())
-    if (Config region = config.at("regions").at(name); says_auto(region)) region.set("kinematics", corotational);
+    if (Config region = config.at("regions").at(name); says_auto(region)) region.set("kinematics", kinematics);
+}
+
+}  // namespace
+
+void make_corotational(Config& config) { replace_auto(config, "corotational"); }
+
+Config with_chosen_kinematics(const Config& config) {
+  Config copy = config.copy();
+  replace_auto(copy, "linear");
+  return copy;
 }
 
 void run_with_kinematics_restarts(const Config& scene, const KinematicsAttempt& attempt) {

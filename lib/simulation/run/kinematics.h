@@ -34,6 +34,9 @@ bool has_linear_region(const Scene& scene);
 // Changes `auto` to `corotational` in the document, for all regions.
 void make_corotational(Config& config);
 
+// A copy of the document of a scene whose kinematics are chosen: what is still `auto` has been chosen to be linear.
+Config with_chosen_kinematics(const Config& config);
+
 // Builds a scene with `auto` kinematics. Regions with `auto` become linear, except those for which the linear static
 // response predicts a clearly larger error than allowed. In a buckling or harmonic analysis all become
 // corotational. The document

@@ -168,6 +168,8 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
   if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model))
     append(strain_warnings(*built.model, built.initial, response()), built.warnings);
   std::vector<Event> events = make_events(scene, *built.model);
+  if (scene.is_static()) model_parameters(config, scene.sensitivities, scene.sensitivities.origin);  // throws
+  std::unique_ptr<MotionSensitivity> sensitivities;
   std::unique_ptr<Integrator> integrator;
   double wall = 0, cpu = 0;
   if (!scene.is_static()) {
@@ -179,6 +181,12 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
     task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
     const auto begin = std::chrono::steady_clock::now();
     const double begin_cpu = cpu_seconds_now();
+    if (!scene.sensitivities.empty()) {
+      if (ranks) scene.sensitivities.origin.fail("are computed by one process: remove --ranks");
+      sensitivities = std::make_unique<MotionSensitivity>(with_chosen_kinematics(config), scene, built,
+                                                          scene.sensitivities, scene.sensitivities.origin);
+      task.sensitivities = sensitivities.get();
+    }
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu = cpu_seconds_now() - begin_cpu;
@@ -196,6 +204,7 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
   return {std::move(config),
           std::move(scene),
           std::move(built),
+          std::move(sensitivities),
           std::move(integrator),
           std::move(events),
           std::move(kinematics),

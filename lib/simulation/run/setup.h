@@ -10,14 +10,16 @@
 #include "lib/ode/integrator.h"
 #include "lib/scene/build.h"
 #include "lib/simulation/run/kinematics.h"
+#include "lib/simulation/sensitivity/motion_sensitivity.h"
 
 namespace orthodyn {
 
 struct Setup {
   Config config;  // resolved: all defaults and the integrator's decisions included
   Scene scene;
-  BuiltScene built;                        // includes warnings for the user
-  std::unique_ptr<Integrator> integrator;  // null in statics
+  BuiltScene built;                                  // includes warnings for the user
+  std::unique_ptr<MotionSensitivity> sensitivities;  // of a motion; null if none are wanted
+  std::unique_ptr<Integrator> integrator;            // null in statics
   std::vector<Event> events;
   std::optional<KinematicsChoice> kinematics;  // if the scene has `kinematics: auto`
   std::unique_ptr<LinearityWatch> linearity;   // watches the run; null without linear kinematics

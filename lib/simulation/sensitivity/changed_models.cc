@@ -1,13 +1,23 @@
 #include "lib/simulation/sensitivity/changed_models.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "lib/core/errors.h"
+#include "lib/core/spelling.h"
+#include "lib/mesh/selection.h"
+#include "lib/scene/quantity.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kFirstStep = 0.3, kLastStep = 1e-4;  // shares of SceneParameter::usual_change()
+// Shares of SceneParameter::usual_change().
+constexpr double kStepOfFour = 0.3, kStepOfTwo = 0.01, kLastStep = 1e-4;
 
 // Whether the scene can be read with the parameter at two steps h to both sides.
 bool allows(const Config& scene, const SceneParameter& parameter, double h) {
@@ -20,8 +30,8 @@ bool allows(const Config& scene, const SceneParameter& parameter, double h) {
 }
 
 // Step of the differences, in SI units of the parameter.
-double step_of(const Config& scene, const SceneParameter& parameter) {
-  double h = kFirstStep * parameter.usual_change();
+double step_of(const Config& scene, const SceneParameter& parameter, ChangeCount count) {
+  double h = (count == ChangeCount::four ? kStepOfFour : kStepOfTwo) * parameter.usual_change();
   while (!allows(scene, parameter, h)) {
     h /= 2;
     if (h < kLastStep * parameter.usual_change()) read_scene(parameter.changed(scene, 2 * h));  // throws
@@ -30,13 +40,26 @@ double step_of(const Config& scene, const SceneParameter& parameter) {
   return h;
 }
 
+// Sections of a scene whose numbers are part of the model or of the initial state.
+constexpr std::array kModelSections{"damping", "gravity", "initial", "loads", "materials",
+                                    "mesh",    "motions", "regions", "terms"};
+
+void require_part_of_model(const std::string& path, const SourceLocation& origin) {
+  const std::string section = path.substr(0, path.find('.'));
+  if (std::find(kModelSections.begin(), kModelSections.end(), section) != kModelSections.end()) return;
+  origin.fail(fmt::format("'{}' is no number of the model: sensitivities are with respect to numbers of {}", path,
+                          join(std::vector<std::string>(kModelSections.begin(), kModelSections.end()))));
+}
+
 }  // namespace
 
-ChangedModels::ChangedModels(const Config& scene, const FemModel& original, const SceneParameter& parameter)
-    : step_(step_of(scene, parameter)) {
-  for (const int steps : {-2, -1, 1, 2}) {
+ChangedModels::ChangedModels(const Config& scene, const FemModel& original, const SceneParameter& parameter,
+                             ChangeCount count, ChangedMotion motion)
+    : step_(step_of(scene, parameter, count)) {
+  const bool stays = motion == ChangedMotion::as_given;
+  for (const int steps : count == ChangeCount::four ? std::vector{-2, -1, 1, 2} : std::vector{-1, 1}) {
     const Scene read = read_scene(parameter.changed(scene, steps * step_));
-    Changed changed{steps * step_, read.is_static() ? read : at_rest(read), {}};
+    Changed changed{steps * step_, stays || read.is_static() ? read : at_rest(read), {}};
     changed.built = build(changed.scene);
     if (changed.model().num_dofs() != original.num_dofs() || changed.model().pattern().row != original.pattern().row)
       throw ConfigError(parameter.path(), "changes the connections of the mesh; choose another parameter");
@@ -44,6 +67,47 @@ ChangedModels::ChangedModels(const Config& scene, const FemModel& original, cons
   }
 }
 
-void require_changeable(const Config& scene, const SceneParameter& parameter) { step_of(scene, parameter); }
+double small_displacement(const FemModel& model) {
+  constexpr double kShare = 1e-4;
+  return kShare * bounding_box(model.parts().mesh).size().minCoeff();
+}
+
+SceneOutputs named_quantities(std::vector<std::string> names) {
+  return [names = std::move(names)](const Scene& scene, const FemModel& model, const State& state) {
+    const ObservedState observed(model, state);
+    Eigen::VectorXd all(static_cast<Eigen::Index>(names.size()));
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      all[i] = find_quantity(names[static_cast<std::size_t>(i)], scene, model, {}).values(observed).at(0);
+    return all;
+  };
+}
+
+Eigen::VectorXd derivative_along(const State& direction, double longest, const Scene& scene, const FemModel& model,
+                                 const State& state, const SceneOutputs& outputs) {
+  const double small = small_displacement(model);
+  const double largest = direction.q.lpNorm<Eigen::Infinity>();
+  const double h = largest * longest > small ? small / largest : longest;
+  const auto at = [&](double steps) {
+    return outputs(
+        scene, model,
+        State{state.t, state.q + steps * h * direction.q, state.v + steps * h * direction.v, state.load_factor});
+  };
+  return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+}
+
+std::vector<SceneParameter> model_parameters(const Config& scene, const std::vector<std::string>& paths,
+                                             const SourceLocation& origin) {
+  std::vector<SceneParameter> parameters;
+  for (const std::string& path : paths) {
+    require_part_of_model(path, origin);
+    parameters.emplace_back(scene, path);
+    require_changeable(scene, parameters.back());
+  }
+  return parameters;
+}
+
+void require_changeable(const Config& scene, const SceneParameter& parameter) {
+  step_of(scene, parameter, ChangeCount::four);
+}
 
 }  // namespace orthodyn

@@ -9,11 +9,10 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "lib/linear/solver.h"
-#include "lib/simulation/sensitivity/scene_parameter.h"
+#include "lib/simulation/sensitivity/changed_models.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
@@ -25,9 +24,9 @@ class EquilibriumSensitivity {
   EquilibriumSensitivity(const Config& config, const Scene& scene, const FemModel& model, const LoadPath& path,
                          State equilibrium);
 
-  // Derivatives of the named quantities (lib/scene/quantity.h), which must be single numbers, in SI units. Throws
-  // ConfigError if changes of the parameter change the mesh's connections.
-  std::vector<double> derivatives(const SceneParameter& parameter, const std::vector<std::string>& quantities) const;
+  // Derivatives of outputs, per SI unit of the parameter. Throws ConfigError if changes of the parameter change the
+  // mesh's connections.
+  Eigen::VectorXd derivatives(const SceneParameter& parameter, const SceneOutputs& outputs) const;
 
  private:
   const Config& config_;

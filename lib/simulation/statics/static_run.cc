@@ -15,6 +15,7 @@
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
 #include "lib/simulation/run/several_ranks.h"
+#include "lib/simulation/sensitivity/sensitivity_table.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
 
@@ -153,12 +154,26 @@ EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& pr
   return out;
 }
 
+// Derivatives at full load.
+void write_sensitivities(const Setup& setup, const StaticProblem& problem, const State& last,
+                         const std::filesystem::path& folder) {
+  const Scene& scene = setup.scene;
+  if (scene.sensitivities.empty()) return;
+  const Config config = with_chosen_kinematics(setup.config);
+  const auto parameters = model_parameters(config, scene.sensitivities, scene.sensitivities.origin);
+  const FemModel& model = *setup.built.model;
+  const State equilibrium{problem.path->times().end, last.q, Vector::Zero(last.q.size())};
+  const EquilibriumSensitivity sensitivity(config, scene, model, *problem.path, equilibrium);
+  orthodyn::write_sensitivities(folder / "sensitivities.csv", scene, model, sensitivity, parameters);
+}
+
 }  // namespace
 
 RunResult run_static_analysis(RunContext context) {
   const Setup& setup = context.setup;
   const auto& folder = context.folder.path();
   const StaticProblem problem = static_problem(setup.scene, setup.built);
+  if (!setup.scene.sensitivities.empty()) sensitivity_quantities(setup.scene, *setup.built.model);  // throws
   context.folder.prepare();
   const RunRecord record(folder, context.scene, context.set, {}, context.setup.config);
   write_file(folder / "scene.yaml", {context.resolved});
@@ -180,6 +195,8 @@ RunResult run_static_analysis(RunContext context) {
   result.model = summarize(setup);
   observers.copy_to(result);
   result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.only_this_rank_failed);
+  if (result.outcome.status == Outcome::Status::completed)
+    write_sensitivities(setup, problem, result.outcome.last, folder);
   record.finish(result);
   context.listener.on_result(result);
   return result;

@@ -1,6 +1,10 @@
 // Evaluates one point: computes the metrics of its scene.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "lib/analysis/buckling.h"
 #include "lib/scene/quantity.h"
@@ -72,6 +76,47 @@ class TimedMeshError : public MeshErrorRecorder {
     wall_seconds += watch.wall();
   }
   double cpu_seconds = 0, wall_seconds = 0;
+};
+
+// Derivatives of named quantities at the output times of a motion.
+class SlopeRecorder : public Observer {
+ public:
+  SlopeRecorder(const Setup& setup, std::vector<std::string> quantities)
+      : setup_(setup), outputs_(named_quantities(std::move(quantities))) {}
+
+  void on_start(const ObservedState& observed) override {
+    times_.push_back(observed.t());
+    for (int i = 0; i < setup_.sensitivities->count(); ++i) record(i, observed, setup_.sensitivities->initial(i));
+  }
+  void on_output(const ObservedState& observed) override {
+    times_.push_back(observed.t());
+    for (int i = 0; i < setup_.sensitivities->count(); ++i) {
+      State slope;
+      setup_.integrator->interpolate_sensitivity(i, observed.t(), slope);
+      record(i, observed, slope);
+    }
+  }
+
+  // Of a quantity at the start or the output time nearest to t, by parameter.
+  std::vector<double> at(std::size_t quantity, double t) const {
+    const auto nearest = std::min_element(times_.begin(), times_.end(),
+                                          [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+    const auto count = static_cast<std::size_t>(setup_.sensitivities->count());
+    const auto first = static_cast<std::size_t>(nearest - times_.begin()) * count;
+    std::vector<double> out;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(slopes_[first + i][static_cast<Eigen::Index>(quantity)]);
+    return out;
+  }
+
+ private:
+  void record(int i, const ObservedState& observed, const State& slope) {
+    slopes_.push_back(setup_.sensitivities->derivative(i, observed.state(), slope, outputs_));
+  }
+
+  const Setup& setup_;
+  SceneOutputs outputs_;
+  std::vector<double> times_;
+  std::vector<Eigen::VectorXd> slopes_;  // all parameters of the first time, then of the second, ...
 };
 
 class Evaluation {
@@ -174,7 +219,7 @@ class Evaluation {
   }
 
   void follow_motion() {
-    run_with_kinematics_restarts(config_, [&](const Config& config, const std::string& restart_reason) {
+    run_with_kinematics_restarts(with_sensitivities(), [&](const Config& config, const std::string& restart_reason) {
       result_.failure.reset();
       Setup setup = set_up(config, false, true, ranks_);
       result_.warnings = setup.built.warnings;
@@ -188,6 +233,15 @@ class Evaluation {
       if (!restart) result_.kinematics = kinematics_summary(setup);
       return restart;
     });
+  }
+
+  // The scene; with the parameters as its `sensitivities` if values of a motion have derivatives.
+  Config with_sensitivities() const {
+    Config copy = config_.copy();
+    const auto at_time = [](const WantedMetric& m) { return m.at.has_value(); };
+    if (!input_.parameters.empty() && wants(at_time) && has_motion_sensitivity(read_scene(config_), input_.parameters))
+      copy.set_yaml("sensitivities", "[" + fmt::format("{}", fmt::join(input_.parameters, ", ")) + "]");
+    return copy;
   }
 
   void follow_motion(const Setup& setup) {
@@ -251,8 +305,8 @@ class Evaluation {
     }
     auto* const first = &result_.derivatives[result_.derivatives.size() - names.size()];
     for (const SceneParameter& parameter : all) {
-      const auto slopes = sensitivity.derivatives(parameter, names);
-      for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[i]);
+      const auto slopes = sensitivity.derivatives(parameter, named_quantities(names));
+      for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[static_cast<Eigen::Index>(i)]);
     }
   }
 
@@ -278,6 +332,10 @@ class Evaluation {
     if (setup.kinematics && setup.linearity) observers.push_back(setup.linearity.get());
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
+    std::vector<std::string> names;
+    for (const auto* metric : wanted.metrics) names.push_back(metric->second.quantity);
+    std::optional<SlopeRecorder> slopes;
+    if (setup.sensitivities) observers.push_back(&slopes.emplace(setup, names));
     const Outcome outcome =
         run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, deadline.over);
     const bool completed = conclude(outcome, setup.integrator->statistics());
@@ -291,6 +349,7 @@ class Evaluation {
            m.settled_within ? settling_time(recorder.series(q), *m.settled_within)
                             : metric(wanted.expectations[q], recorder, q),
            m.unit_of(wanted.quantities[q].unit));
+      if (slopes && m.at) result_.derivatives.emplace_back(name, slopes->at(q, *m.at));
     }
     keep(mesh_error);
     draw(*setup.built.model, frame.state());

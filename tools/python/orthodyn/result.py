@@ -174,6 +174,12 @@ class Result:
         return self.table("probes")
 
     @property
+    def sensitivities(self) -> dict[str, np.ndarray]:
+        """Derivatives of probes, reactions and energies with respect to the scene's `sensitivities`, per SI unit of the
+        parameter: t (or the load factor), "d tip.displacement.z / d materials.wood.young.0", ..."""
+        return self.table("sensitivities")
+
+    @property
     def energies(self) -> dict[str, np.ndarray]:
         """Energies, J: kinetic, elastic, ... and the balance, which should stay zero."""
         return self.table("energy")

@@ -67,7 +67,7 @@ void check_event(const CheckContext& context, Warnings& out);      // events.cc
 void check_setting(const CheckContext& context, Warnings& out);    // settings.cc: keys of the integrator
 
 // The value at a path such as "integrator.rtol"; empty if absent or null.
-std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path);
+std::optional<Config> find_value(const Config& config, const std::vector<std::string>& path);
 
 // Calls `visit` for each value of a key at any depth.
 void visit_keys(const Config& config, const std::string& key, const std::function<void(const Config&)>& visit);

@@ -26,7 +26,7 @@ CheckContext::CheckContext(const Config& resolved, const Scene& its_scene, const
     wave_speed = std::max(wave_speed, fastest_wave(parts.elastic[k]->stiffness(), parts.densities[k]));
 }
 
-std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path) {
+std::optional<Config> find_value(const Config& config, const std::vector<std::string>& path) {
   Config here = config;
   for (const auto& key : path) {
     if (!here.has(key)) return {};
@@ -112,7 +112,7 @@ Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene
   return out;
 }
 
-Warnings scene_warnings(const Config& input) {
+Warnings scene_warnings(const Config& input, bool is_timed) {
   Config config = input.resolving();
   Warnings out;
   try {
@@ -123,8 +123,8 @@ Warnings scene_warnings(const Config& input) {
     }
     const BuiltScene built = build(scene);
     out = config.warnings();
-    for (auto& warning : check_inputs(config, scene, built)) out.push_back(std::move(warning));
-    if (built.model->num_dofs() > kMaxUnknownsOfResponse) return out;
+    for (auto& warning : check_inputs(config, scene, built, is_timed)) out.push_back(std::move(warning));
+    if (!is_timed || built.model->num_dofs() > kMaxUnknownsOfResponse) return out;
     const StaticResponse statics = static_response(*built.model, built.initial, scene.time.end);
     for (auto& warning : check_response(config, scene, built, statics)) out.push_back(std::move(warning));
   } catch (const ConfigError&) {  // reported where the scene is run

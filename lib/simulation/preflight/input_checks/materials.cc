@@ -75,7 +75,7 @@ std::string swapped_ratio(const Config& material) {
   constexpr double kStiffer = 5, kSmall = 0.1, kLeastUsual = 0.15, kMaxUsual = 0.8;
   if (!material.has("young") || !material.at("young").is_sequence() || material.at("young").size() != 3) return "";
   const auto number = [&](int i, int j) -> std::optional<double> {
-    const auto value = value_at(material, {fmt::format("nu{}{}", i, j)});
+    const auto value = find_value(material, {fmt::format("nu{}{}", i, j)});
     if (!value || !value->reads_as_number()) return {};
     return value->number();
   };
@@ -134,7 +134,7 @@ std::string unlikely_constant(const Material& material, const std::optional<Conf
   const double density = material.density(), wave = fastest_wave(C, density);
   const Vec6 lambda = symmetric_eigenvalues(C);
   const double stiffest = lambda.maxCoeff(), softest = lambda.minCoeff();
-  if (density > kDensest) return dense_warning(density, section ? value_at(*section, {"density"}) : section);
+  if (density > kDensest) return dense_warning(density, section ? find_value(*section, {"density"}) : section);
   if (wave > kFastest) return wave_warning(wave, density, stiffest);
   if (softest < kMaxUnlike * stiffest)
     return fmt::format(
@@ -162,7 +162,7 @@ std::string unlikely_constant(const Material& material, const std::optional<Conf
 
 void check_material(const CheckContext& context, Warnings& out) {
   for (const auto& [name, material] : context.scene.materials) {
-    const auto place = value_at(context.config, {"materials", name});
+    const auto place = find_value(context.config, {"materials", name});
     const std::string finding = unlikely_constant(*material, place);
     if (finding.empty()) continue;
     warn(out, place ? place->where() : "materials." + name, "{}", finding);

@@ -34,8 +34,8 @@ double stiffest_constant(const FemModel& model) {
 }
 
 LikelyError likely_error(const Config& config, double extent, double stiffest) {
-  const auto gravity = value_at(config, {"gravity"});
-  const auto place = [&](const char* key) { return value_at(config, {key}).value_or(config).where(); };
+  const auto gravity = find_value(config, {"gravity"});
+  const auto place = [&](const char* key) { return find_value(config, {key}).value_or(config).where(); };
   if (gravity && Value<Vec3>::read(*gravity, {.unit = "m/s^2"}).norm() > 100)
     return {gravity->where(), "is the gravity in m/s^2?"};
   if (extent < kShortBody)
@@ -60,7 +60,7 @@ std::string moved_by(double share) {
 }
 
 void check_fixed_step(const Config& config, const FemModel& model, const StaticResponse& statics, Warnings& out) {
-  const auto value = value_at(config, {"integrator", "step"});
+  const auto value = find_value(config, {"integrator", "step"});
   if (!value || value->text() == "auto") return;
   const double step = read_number(*value, {.unit = "s"});
   // Frequency (rad/s) of the vibration that the loads start, by the Rayleigh quotient of the static response.
@@ -78,7 +78,7 @@ void check_traction(const Config& config, const Scene& scene, double share, Warn
   if (share >= kHardlySeen || scene.gravity || !scene.terms.empty() || !scene.motions.empty() || scene.initial) return;
   if (scene.loads.size() != 1) return;
   const Config load = config.at("loads").at(0);
-  const auto traction = value_at(load, {"traction"});
+  const auto traction = find_value(load, {"traction"});
   if (!traction || !traction->is_sequence()) return;
   for (std::size_t i = 0; i < traction->size(); ++i)
     if (!traction->at(i).reads_as_number() || std::abs(traction->at(i).number()) > kMaxPascals) return;
@@ -106,7 +106,7 @@ Warnings check_response(const Config& config, const Scene& scene, const BuiltSce
   if (share > kTooFar) return {fmt::format("{}: {}; {}", error.place, finding, error.words)};
   if (share < kUnseen)
     return {fmt::format("{}: {}, too little to be visible in the results: are forces in N, tractions and moduli in Pa?",
-                        value_at(config, {"loads"}).value_or(config).where(), finding)};
+                        find_value(config, {"loads"}).value_or(config).where(), finding)};
   Warnings out;
   if (!scene.is_static()) check_fixed_step(config, *built.model, statics, out);
   check_traction(config, scene, share, out);

@@ -12,7 +12,7 @@ constexpr double kMaxSteps = 1e9;
 constexpr double kLargestLeast = 0.1;  // smallest step over the duration of the run
 
 void check_tolerance(const CheckContext& context, const char* section, Warnings& out) {
-  const auto rtol = value_at(context.config, {section, "rtol"});
+  const auto rtol = find_value(context.config, {section, "rtol"});
   if (!rtol || !rtol->reads_as_number()) return;
   if (rtol->number() > kCoarsest)
     warn(out, rtol->where(),
@@ -28,7 +28,7 @@ void check_tolerance(const CheckContext& context, const char* section, Warnings&
 
 // Checks an error scale (length or speed). `natural`: length or wave speed of the body.
 void check_scale(const CheckContext& context, const char* key, const char* unit, double natural, Warnings& out) {
-  const auto scale = value_at(context.config, {"integrator", key});
+  const auto scale = find_value(context.config, {"integrator", key});
   if (!scale || scale->text() == "auto") return;
   const double share = read_number(*scale, {.unit = unit}) / natural;
   if (share > kLargestScale)
@@ -41,7 +41,7 @@ void check_scale(const CheckContext& context, const char* key, const char* unit,
 
 void check_step(const CheckContext& context, Warnings& out) {
   for (const char* key : {"step", "h_max", "h_min", "h0"}) {
-    const auto value = value_at(context.config, {"integrator", key});
+    const auto value = find_value(context.config, {"integrator", key});
     if (!value || value->text() == "auto") continue;
     const double step = read_number(*value, {.unit = "s"});
     const bool shortens = std::string(key) == "step" || std::string(key) == "h_max";

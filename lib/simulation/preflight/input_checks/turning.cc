@@ -104,7 +104,7 @@ void check_turning(const CheckContext& context, Warnings& out) {
   if (!context.is_timed_motion() || !is_free(context)) return;
   const Vec3 angle = angle_turned(context);
   if (parts.mass->lumped()) add_lumped_moments(context, angle, out);
-  const auto kinematics = value_at(context.config, {"elasticity", "kinematics"});
+  const auto kinematics = find_value(context.config, {"elasticity", "kinematics"});
   if (kinematics && kinematics->text() == "linear" && angle.norm() > kLinear)
     warn(out, kinematics->where(),
          "nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, but linear kinematics are limited "
