@@ -9,14 +9,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All shipped scenes except those whose meshes are not shipped (tests/problems/vega_scenes_test.cc).
+// A scene for natural frequencies needs no time span, without which it cannot be run.
+bool can_run(const std::string& file) {
+  const Config scene = Config::from_file(file);
+  return scene.has("time") || scene.has("analysis");
+}
+
+// All shipped scenes that can be run, except those whose meshes are not shipped (tests/problems/vega_scenes_test.cc).
 std::vector<std::string> shipped_scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs")) {
     const auto folder = entry.path().parent_path().filename();
     const bool other =
         folder == "comparisons" || folder == "sweeps" || folder == "stability" || folder == "vega" || folder == "fits";
-    if (entry.path().extension() == ".yaml" && !other) files.push_back(entry.path().string());
+    if (entry.path().extension() == ".yaml" && !other && can_run(entry.path().string()))
+      files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -1,8 +1,9 @@
 """Every scene of configs/scenes completes at full length without a warning, because users run these scenes first. EXPECTED lists
-the scenes that show a warning on purpose, with the reason.
+the scenes that show a warning on purpose, with the reason. Likewise the fits of configs/fits, which also find the truth.
 
     ORTHODYN_EXECUTABLE=build/release/orthodyn ORTHODYN_LONG=1 /usr/bin/python3 -m unittest discover -s tests/shipped
 """
+import json
 import os
 import re
 import subprocess
@@ -11,6 +12,7 @@ import unittest
 from pathlib import Path
 
 SCENES = Path(__file__).resolve().parents[2] / "configs" / "scenes"
+FITS = SCENES.parent / "fits"
 PROGRAM = os.environ.get("ORTHODYN_EXECUTABLE", "orthodyn")
 
 # Scene -> beginnings of its warnings.
@@ -20,6 +22,18 @@ EXPECTED = {
 }
 # Run with ORTHODYN_LONG only: 3 s of CPU and more.
 LONG = {"cantilever", "drop", "free_flight", "guitar_top", "laminate", "muscle", "stem", "tube_lrt", "tuning_fork", "twist", "xylophone_bar"}
+
+
+# Fit -> the true values of its parameters, in the units of fit.json.
+TRUTH = {
+    "spruce_plate": {"E1": 11, "E2": 0.9, "G12": 0.75, "nu12": 0.37},
+    "off_axis_strip": {"angle": 25, "E1": 40, "E2": 10},
+    "muscle_release": {"E1": 60, "damping": 8},
+    "soundboard_damping": {"loss of E1": 0.008, "loss of E2": 0.02, "loss of G12": 0.014},
+    "wood_five_tests": {"EL": 11.88, "ER": 0.9266, "ET": 0.5108, "nuLR": 0.372, "nuRT": 0.435, "nuLT": 0.467, "GLR": 0.7603,
+                        "GRT": 0.03564, "GLT": 0.7247},
+}
+LONG_FITS = set(TRUTH) - {"off_axis_strip"}
 
 
 def warnings_of(scene, folder):
@@ -44,6 +58,23 @@ class ShippedScenes(unittest.TestCase):
     def test_the_lists_name_scenes(self):
         names = {scene.stem for scene in SCENES.glob("*.yaml")}
         self.assertLessEqual({*EXPECTED, *LONG}, names)
+
+
+class ShippedFits(unittest.TestCase):
+    def test_each_finds_the_truth_without_a_warning(self):
+        self.assertEqual(set(TRUTH), {fit.stem for fit in FITS.glob("*.yaml")})
+        for name, truth in TRUTH.items():
+            if name in LONG_FITS and not os.environ.get("ORTHODYN_LONG"):
+                continue
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([PROGRAM, "fit", str(FITS / f"{name}.yaml"), "--out", folder, "--quiet", "--no-report"],
+                                      capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                table = json.loads((Path(folder) / "fit.json").read_text(encoding="utf-8"))
+                found = {one["name"]: one for one in table["parameters"]}
+                for parameter, value in truth.items():
+                    one = found[parameter]  # three times the 95 % interval about the value: misses once in 10^8
+                    self.assertLess(abs(value - one["value"]), 1.5 * (one["high"] - one["low"]), parameter)
 
 
 if __name__ == "__main__":

@@ -71,7 +71,8 @@ int run(const StudyArguments& arguments) {
   const Problem problem(fit);
   const fs::path folder = folder_for(arguments, "out/fits", fit.name);
   InputWarningPrinter warnings;
-  for (const PreparedExperiment& experiment : problem.experiments()) warnings.print(experiment.scene);
+  for (const PreparedExperiment& experiment : problem.experiments())
+    warnings.print(experiment.scene, !experiment.has_modes_only());
   const StudyFolder place(folder, "fit", arguments.file);
   Printer printer(problem, arguments.quiet);
   const JobOptions options{folder, job_queue(arguments, worker_count(arguments)),

@@ -118,8 +118,8 @@ void require_usual_number(const StudyArguments& arguments, double points) {
                                 points, shown_bytes(points * kBytesOfPoint)));
 }
 
-void InputWarningPrinter::print(const Config& scene) {
-  for (const auto& warning : scene_warnings(scene))
+void InputWarningPrinter::print(const Config& scene, bool is_timed) {
+  for (const auto& warning : scene_warnings(scene, is_timed))
     if (printed_.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
 }
 

@@ -78,7 +78,8 @@ void require_usual_number(const StudyArguments& arguments, double points);
 // Prints input-check warnings (units and magnitudes) of a study's scenes to stderr, each once.
 class InputWarningPrinter {
  public:
-  void print(const Config& scene);
+  // `is_timed`: false if only natural frequencies of the scene are computed.
+  void print(const Config& scene, bool is_timed = true);
 
  private:
   std::set<std::string> printed_;

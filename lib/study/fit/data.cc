@@ -12,6 +12,7 @@
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
 #include "lib/simulation/harmonic/response_columns.h"
+#include "lib/simulation/sensitivity/motion_sensitivity.h"
 
 namespace orthodyn::study::fit {
 
@@ -159,10 +160,12 @@ class Reader {
             const std::string& si, const std::string& unit) {
     if (m.deviation) m.deviation->require(si, m.origin);
     const double deviation = m.deviation ? m.deviation->si() : *m.relative * std::abs(value);
-    if (!(deviation > 0) && m.relative)
+    const bool is_candidate = std::isnan(value);
+    if (!(deviation > 0) && m.relative && !is_candidate)
       m.origin.fail(fmt::format("the value {} has no relative deviation: give 'deviation'", value));
     Datum datum{title, entry_, metric, value, deviation, unit, factor_of(unit, si, m.origin)};
-    datum.has_derivatives = scene_.is_static();
+    if (is_candidate) datum.relative = m.relative;
+    datum.has_derivatives = scene_.analysis == Analysis::statical || (metric.at && has_motion_sensitivity(scene_, {}));
     data_.push_back(std::move(datum));
   }
 

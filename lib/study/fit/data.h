@@ -1,6 +1,7 @@
 // The measured values of a fit, one by one.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +15,15 @@ struct Datum {
   std::size_t entry;                // of `measured`; data of a table have the same entry
   WantedMetric metric;              // computed by the scene
   double value;                     // SI; NaN for candidates
-  double deviation;                 // SI
+  double deviation;                 // SI; NaN if `relative`
   std::string unit;                 // of display, for people
   double factor = 1;                // from `unit` to SI
   std::optional<double> over = {};  // time (s) or frequency (Hz) in a table
   // Whether its derivatives are exact (EvaluationResult::derivatives). Otherwise they are differences between runs.
   bool has_derivatives = false;
+  std::optional<double> relative = {};  // of a candidate: deviation over the computed value
+
+  double deviation_at(double computed) const { return relative ? *relative * std::abs(computed) : deviation; }
 };
 
 // Reads the tables, and checks quantities, units and times against `config`, the resolved scene. Throws ConfigError.

@@ -67,7 +67,6 @@ void check_values(const Named<Experiment>& experiments, const Config& config, bo
       if (wants_values && !has_values) at.fail("has no measured 'value' (or 'table')");
       if (!wants_values && has_values)
         at.fail("a candidate has no measured values: give quantity or mode and the deviation that you expect");
-      if (!wants_values && m.relative) at.at("relative").fail("is not used for a candidate; give 'deviation'");
     }
   }
 }
@@ -105,7 +104,8 @@ const Spec<Measurement>& Measurement::spec() {
                "Unit of the column's values; default the one in brackets in its name (z [mm]), otherwise SI.")
           .key("deviation", &Measurement::deviation, "Standard deviation of each measured value, or `relative`.",
                {.unit = kUnitOfQuantity, .range = kPositive})
-          .key("relative", &Measurement::relative, "Standard deviation as a fraction of each measured value.",
+          .key("relative", &Measurement::relative,
+               "Standard deviation as a fraction of each measured value; of a candidate, of its computed value.",
                {.range = kPositive})
           .check(check_measurement);
   return s;

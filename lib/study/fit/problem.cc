@@ -8,6 +8,7 @@
 
 #include "lib/core/units.h"
 #include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/sensitivity/motion_sensitivity.h"
 #include "lib/simulation/sensitivity/scene_parameter.h"
 #include "lib/study/sweep/key_unit.h"
 
@@ -38,11 +39,19 @@ Problem::Problem(const Fit& fit) : limits_(fit.limits) {
   require_enough_data(fit);
 }
 
+bool PreparedExperiment::has_modes_only() const {
+  return std::none_of(data.begin(), data.end(), [](const Datum& datum) { return datum.metric.is_of_motion(); });
+}
+
 void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates) {
   for (const auto& [name, experiment] : experiments) {
     Config scene = Config::from_file(experiment.scene.file.path);
     refuse_other_kinds(scene, InputFile::scene);
     assign(scene, experiment.scene.set);
+    const auto is_of_motion = [](const Measurement& m) { return !m.mode && m.frequencies.empty(); };
+    const bool has_motion = std::any_of(experiment.measured.begin(), experiment.measured.end(), is_of_motion);
+    if (!has_motion && scene.is_map() && !scene.has("time") && !scene.has("analysis"))
+      scene.set("time.end", 1.0);  // needed, but without effect
     experiments_.push_back({name, scene, data_of(experiment, scene.resolving()), {}, are_candidates});
   }
 }
@@ -58,6 +67,9 @@ void Problem::add_parameter(const std::string& name, const Parameter& parameter)
       if (!has_value_at(experiment.scene, path)) continue;
       SceneParameter(experiment.scene, path);  // throws for a value that cannot be changed
       own.push_back(path);
+      const Scene scene = read_scene(experiment.scene);
+      for (Datum& datum : experiment.data)
+        if (datum.metric.at && !has_motion_sensitivity(scene, {path})) datum.has_derivatives = false;
       if (!first && path == parameter.path && !experiment.is_candidate) first = experiment.scene;
     }
   }

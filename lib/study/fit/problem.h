@@ -34,6 +34,9 @@ struct PreparedExperiment {
   std::vector<Datum> data;
   std::vector<std::vector<std::string>> paths;  // by parameter: those that the scene has
   bool is_candidate = false;
+
+  // Whether only natural frequencies of the scene are measured, for which it needs no time span and no loads.
+  bool has_modes_only() const;
 };
 
 // Data of one evaluation, in the order of the data of all experiments in question.

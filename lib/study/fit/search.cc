@@ -28,10 +28,11 @@ std::vector<std::size_t> with_priors(const Problem& problem) {
 
 }  // namespace
 
-Eigen::MatrixXd weighted(const Problem& problem, const Eigen::MatrixXd& derivatives, Experiments which) {
-  Eigen::MatrixXd out = derivatives;
+Eigen::MatrixXd weighted(const Problem& problem, const Evaluation& at, Experiments which) {
+  Eigen::MatrixXd out = *at.derivatives;
   const auto data = problem.data(which);
-  for (std::size_t i = 0; i < data.size(); ++i) out.row(static_cast<Eigen::Index>(i)) /= data[i]->deviation;
+  for (std::size_t i = 0; i < data.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) /= data[i]->deviation_at(at.computed[i]);
   return out;
 }
 
@@ -44,7 +45,7 @@ Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation
     out.values[static_cast<Eigen::Index>(i)] = (at.computed[i] - data[i]->value) / data[i]->deviation;
   if (at.derivatives) {
     out.derivatives.resize(all, z.size());
-    out.derivatives.topRows(count) = weighted(problem, *at.derivatives, Experiments::measured);
+    out.derivatives.topRows(count) = weighted(problem, at, Experiments::measured);
   }
   if (priors.empty()) return out;
   const Vector values = problem.coordinates().values(z);
@@ -206,10 +207,19 @@ class Progress : public ceres::IterationCallback {
     iterations_.push_back({summary.iteration, 2 * summary.cost, problem_.coordinates().values(z_), accepted,
                            accepted || summary.step_is_valid ? "" : shared_.failure()});
     on_iteration_(iterations_.back());
-    return ceres::SOLVER_CONTINUE;
+    return is_lost_in_noise(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  // Whether a step was rejected that would have been an improvement of 1e-4 of the sum at most: errors of the runs,
+  // such as those of the time integration, then hide the slope. With residuals like their deviations, such a step is
+  // about 2 % of the parameters' deviations long.
+  static bool is_lost_in_noise(const ceres::IterationSummary& summary) {
+    constexpr double kNegligible = 1e-4;
+    if (summary.step_is_successful || !summary.step_is_valid || summary.relative_decrease >= 0) return false;
+    return summary.cost_change / summary.relative_decrease < kNegligible * summary.cost;
+  }
+
   const Problem& problem_;
   const SharedEvaluation& shared_;
   const Vector& z_;
@@ -276,8 +286,9 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   shared.PrepareForEvaluation(true, true);  // derivatives at the end
   shared.rethrow();
   if (!shared.succeeded()) throw Failed(shared.failure());
-  out.converged = summary.termination_type == ceres::CONVERGENCE;
-  out.message = summary.message;
+  const bool ended_in_noise = summary.termination_type == ceres::USER_SUCCESS;
+  out.converged = ended_in_noise || summary.termination_type == ceres::CONVERGENCE;
+  out.message = ended_in_noise ? "the errors of the runs hide further improvements" : summary.message;
   out.cost = summary.final_cost;
   out.at = shared.evaluation();
   out.computed_at_start = shared.first();

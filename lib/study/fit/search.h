@@ -23,7 +23,7 @@ Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation
 Residuals weighted_by_loss(const Problem& problem, Residuals residuals, const Residuals& weights_at, Loss loss);
 
 // Rows d computed / d z / deviation of data without priors.
-Eigen::MatrixXd weighted(const Problem& problem, const Eigen::MatrixXd& derivatives, Experiments which);
+Eigen::MatrixXd weighted(const Problem& problem, const Evaluation& at, Experiments which);
 
 struct Iteration {
   int number = 0;

@@ -177,7 +177,7 @@ std::vector<CandidateValue> values_of_candidates(const Problem& problem, const S
   const Eigen::MatrixXd own = at_end(problem, search, loss).derivatives / statistics.noise.factor;
   const Eigen::MatrixXd information =
       own.transpose() * own + Eigen::MatrixXd::Identity(n, n) / std::pow(kPriorDeviation, 2);
-  const Eigen::MatrixXd rows = weighted(problem, *at.derivatives, Experiments::candidates);
+  const Eigen::MatrixXd rows = weighted(problem, at, Experiments::candidates);
   const Eigen::MatrixXd slopes = problem.coordinates().derivatives(search.z);
   const auto log_determinant = [](const Eigen::MatrixXd& a) {
     return a.llt().matrixL().toDenseMatrix().diagonal().array().log().sum();

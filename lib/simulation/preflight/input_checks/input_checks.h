@@ -24,6 +24,6 @@ constexpr int kMaxUnknownsOfResponse = 30'000;
 
 // Builds the scene and returns the warnings of check_inputs() and check_response(). For studies, whose points run in
 // other processes. Empty if the scene cannot be built; the points then report the error.
-Warnings scene_warnings(const Config& scene);
+Warnings scene_warnings(const Config& scene, bool is_timed = true);
 
 }  // namespace orthodyn
