@@ -136,7 +136,8 @@ Json noise_json(const NoiseTest& noise) {
           {"freedom", noise.freedom},
           {"probability", optional_json(noise.probability)},
           {"runs_probability", optional_json(noise.runs_probability)},
-          {"factor", noise.factor}};
+          {"factor", noise.factor},
+          {"bic", finite_or_null(noise.information_criterion)}};
 }
 
 Json candidates_json(const Problem& problem, const Result& result) {
@@ -327,7 +328,7 @@ std::string fit_text(const Json& table) {
                      noise.at("freedom").get<long>());
   if (!noise.at("probability").is_null())
     out += fmt::format(", probability {:.2g}", number_or_nan(noise.at("probability")));
-  out += "\n";
+  out += fmt::format(", BIC {:.4g}\n", number_or_nan(noise.at("bic")));
   for (const Json& sentence : table.at("findings")) out += sentence.get<std::string>() + "\n";
   return out;
 }

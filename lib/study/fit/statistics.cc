@@ -69,6 +69,8 @@ NoiseTest noise_test(const Residuals& residuals, std::size_t data, long rank) {
   out.chi_square = residuals.values.squaredNorm();
   out.freedom = residuals.values.size() - rank;
   out.runs_probability = runs_probability(residuals.values.head(static_cast<Eigen::Index>(data)));
+  out.information_criterion = out.chi_square + static_cast<double>(residuals.derivatives.cols()) *
+                                                   std::log(static_cast<double>(residuals.values.size()));
   if (out.freedom <= 0) return out;
   const auto freedom = static_cast<double>(out.freedom);
   out.probability = boost::math::gamma_q(freedom / 2, out.chi_square / 2);

@@ -42,6 +42,8 @@ struct NoiseTest {
   std::optional<double> runs_probability;
   // Factor by which the deviations were enlarged, sqrt(chi_square / freedom), because the probability is below 1 %.
   double factor = 1;
+  // Bayesian information criterion (Schwarz 1978): chi_square + parameters * ln(residuals), for known deviations.
+  double information_criterion = 0;
 };
 
 struct Statistics {
