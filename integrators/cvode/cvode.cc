@@ -66,7 +66,7 @@ class Cvode final : public SundialsIntegrator {
     sensitivities_->start();
     require(CVodeSensInit1(m, sensitivities_->count(), CV_STAGGERED, sensitivity_derivative, sensitivities_->values()));
     require(CVodeSetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
-    require(CVodeSensEEtolerances(m));  // the weights of the motion, times the scale of the parameter
+    require(CVodeSensSVtolerances(m, options_.rtol, sensitivities_->tolerances(options_.rtol, scales_)));
     require(CVodeSetSensErrCon(m, 1));
   }
 

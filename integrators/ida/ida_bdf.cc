@@ -68,7 +68,7 @@ class IdaBdf final : public SundialsIntegrator {
     require(IDASensInit(m, sensitivities_->count(), IDA_STAGGERED, sensitivity_residual, sensitivities_->values(),
                         sensitivities_->derivatives()));
     require(IDASetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
-    require(IDASensEEtolerances(m));  // the weights of the motion, times the scale of the parameter
+    require(IDASensSVtolerances(m, options_.rtol, sensitivities_->tolerances(options_.rtol, scales_)));
     require(IDASetSensErrCon(m, 1));
   }
 

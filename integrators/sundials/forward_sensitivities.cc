@@ -15,6 +15,7 @@ ForwardSensitivities::ForwardSensitivities(SensitivityEquations& equations, cons
   for (int i = 0; i < equations.count(); ++i) {
     values_.push_back(make());
     derivatives_.push_back(make());
+    tolerances_.push_back(make());
   }
 }
 
@@ -22,6 +23,15 @@ std::vector<double> ForwardSensitivities::scales() const {
   std::vector<double> all;
   for (int i = 0; i < count(); ++i) all.push_back(equations_.scale(i));
   return all;
+}
+
+N_Vector* ForwardSensitivities::tolerances(double rtol, const Scales& scales) {
+  for (int i = 0; i < count(); ++i) {
+    const N_Vector one = tolerances_[static_cast<std::size_t>(i)];
+    positions(one).setConstant(rtol * scales.position / equations_.scale(i));
+    velocities(one).setConstant(rtol * scales.velocity / equations_.scale(i));
+  }
+  return tolerances_.data();
 }
 
 void ForwardSensitivities::start() {

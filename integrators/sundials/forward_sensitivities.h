@@ -25,6 +25,12 @@ class ForwardSensitivities {
   N_Vector* derivatives() { return derivatives_.data(); }
   std::vector<double> scales() const;
 
+  // Absolute tolerances. With them and the relative tolerance `rtol`, an error of the sensitivity s_i with respect to p
+  // is allowed that is rtol times |s_i| plus the motion's own tolerance over the scale of p. Without the first part,
+  // lightly damped motions would need ever smaller steps, because their sensitivities grow with time. `scales`: of the
+  // motion.
+  N_Vector* tolerances(double rtol, const Scales& scales);
+
   // Sets values() to their initial values.
   void start();
   // Sets derivatives() for values() at a state y with derivative y_dot. Throws RecoverableError.
@@ -50,7 +56,7 @@ class ForwardSensitivities {
   CallbackContext& callbacks_;
   Statistics& statistics_;
   std::vector<OwnedVector> owned_;
-  std::vector<N_Vector> values_, derivatives_;  // of owned_
+  std::vector<N_Vector> values_, derivatives_, tolerances_;  // of owned_
 };
 
 }  // namespace orthodyn::sundials
