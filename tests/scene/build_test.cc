@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 // A scene for natural frequencies needs no time span, without which it cannot be run.
 bool can_run(const std::string& file) {
   const Config scene = Config::from_file(file);
-  return scene.has("time") || scene.has("analysis");
+  const bool is_of_fit = file.find("/fits/scenes/") != std::string::npos;
+  return !is_of_fit || scene.has("time") || scene.has("analysis");
 }
 
 // All shipped scenes that can be run, except those whose meshes are not shipped (tests/problems/vega_scenes_test.cc).

@@ -144,6 +144,23 @@ TEST_F(MotionSensitivity, DoesNotDependOnTheLibrary) {
   for (std::size_t column = 0; column < found.size(); ++column) EXPECT_LE(found[column], 0.01) << column;
 }
 
+// Without damping by the stiffness, K s comes from the tangent of each state. With very little of it, it is the
+// difference of two forces. Both agree in a body that moves by a centimetre.
+TEST_F(MotionSensitivity, ByTheTangentIsThatByDifferencesOfForces) {
+  Config scene = Config::from_text(kStrip, "scene.yaml");
+  scene.set_yaml("sensitivities", "[materials.wood.young.0, gravity.2, mesh.size.2]");
+  scene.set_yaml("damping", "{mass: 5}");
+  scene.set_yaml("time.end", "0.006");
+  scene.set_yaml("output.history.interval", "0.002");
+  scene.set_yaml("integrator.rtol", "1e-4");
+  const auto by_tangent = rows("tangent", scene.yaml(), "sensitivities.csv");
+  scene.set_yaml("damping", "{mass: 5, stiffness: 1e-15}");
+  const auto by_forces = rows("forces", scene.yaml(), "sensitivities.csv");
+  const auto found = differences(by_tangent, by_forces);
+  for (const std::size_t displacement : {0, 1, 2})
+    for (std::size_t p = 0; p < 3; ++p) EXPECT_LE(found[3 * displacement + p], 0.02) << displacement << " " << p;
+}
+
 // A start from equilibrium is itself a function of the parameters. Without a change of the loads the body stays there.
 TEST_F(MotionSensitivity, OfARestingBodyStaysThatOfItsEquilibrium) {
   const std::string bar = R"(

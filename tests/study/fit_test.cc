@@ -149,6 +149,47 @@ refine: false
   for (const auto& [name, value] : truth) EXPECT_GE(held[name], 15) << name;
 }
 
+// From 100 GPa the first step is to a negative modulus' side of zero displacement and its run fails: a shorter one
+// follows.
+TEST_F(FitCommand, GoesOnAfterAFailedRun) {
+  write("bar.yaml", kBar);
+  const auto result = fit(R"(
+experiments:
+  bar: {scene: bar.yaml, measured: [{quantity: end.displacement.x, value: 2.5 um, relative: 0.01}]}
+parameters: {E: {path: materials.m.young, start: 100 GPa}}
+)");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("step rejected: "), std::string::npos) << result.output;  // with the reason
+  EXPECT_NEAR(parameter(0).at("value").get<double>(), 1, 1e-6);
+}
+
+// The amplitude and the damping of a motion, whose derivatives come with its run.
+TEST_F(FitCommand, RecoversParametersOfAMotion) {
+  const std::string scene = std::string(kBar).replace(std::string(kBar).find("analysis: static\n"), 17, "") + R"(
+damping: {stiffness: 20 us}
+time: {end: 0.002}
+integrator: {type: cvode_bdf, rtol: 1e-7}
+)";
+  write("bar.yaml", scene);
+  write("truth.yaml", scene + "sensitivities: []\n");
+  ASSERT_EQ(orthodyn("run truth.yaml --quiet --out truth --set output.frames=20").exit_code, 0);
+  write("data.csv", read_text(folder_ / "truth" / "probes.csv"));
+  const auto result = fit(R"(
+experiments:
+  bar:
+    scene: bar.yaml
+    measured: [{quantity: end.displacement.x, table: data.csv, column: "end.displacement.x [m]", deviation: 0.01 um}]
+parameters:
+  E: {path: materials.m.young, start: 1.1 GPa}
+  damping: {path: damping.stiffness, start: 15 us}
+refine: false
+)");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NEAR(parameter(0).at("value").get<double>(), 1, 1e-4);
+  EXPECT_NEAR(parameter(1).at("value").get<double>(), 20, 0.02);
+  EXPECT_LT(table().at("runs").get<int>(), 20);
+}
+
 // A prior counts as one more measured value: the mean of two equally precise ones.
 TEST_F(FitCommand, CountsAPriorAsAMeasuredValue) {
   write("bar.yaml", kBar);
@@ -172,8 +213,10 @@ parameters:
 TEST_F(FitCommand, EndsAtAStableMaterialForDataThatNoneExplains) {
   std::vector<double> measured = values();
   measured[0] *= 3, measured[1] *= -4;
-  const auto result = fit(strip_fit(measured, kFour));
+  const auto result = fit(strip_fit(measured, std::string(kFour) + "iterations: 12\nrefine: false\n"));
   EXPECT_NE(result.output.find("times as large as the stated deviations"), std::string::npos) << result.output;
+  const Json iterations = table().at("attempts").at(0).at("iterations");
+  EXPECT_LT(iterations.back().at("chi_square").get<double>(), iterations.front().at("chi_square").get<double>() / 2);
   const double e1 = parameter(0).at("value").get<double>(), e2 = parameter(1).at("value").get<double>();
   const double nu12 = parameter(3).at("value").get<double>();
   EXPECT_LT(std::abs(nu12) * std::sqrt(e2 / e1), 1);

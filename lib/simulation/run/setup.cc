@@ -168,6 +168,8 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
   if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model))
     append(strain_warnings(*built.model, built.initial, response()), built.warnings);
   std::vector<Event> events = make_events(scene, *built.model);
+  if (ranks && !scene.sensitivities.empty())
+    scene.sensitivities.origin.fail("are computed by one process: remove --ranks");
   if (scene.is_static()) model_parameters(config, scene.sensitivities, scene.sensitivities.origin);  // throws
   std::unique_ptr<MotionSensitivity> sensitivities;
   std::unique_ptr<Integrator> integrator;
@@ -182,7 +184,6 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
     const auto begin = std::chrono::steady_clock::now();
     const double begin_cpu = cpu_seconds_now();
     if (!scene.sensitivities.empty()) {
-      if (ranks) scene.sensitivities.origin.fail("are computed by one process: remove --ranks");
       sensitivities = std::make_unique<MotionSensitivity>(with_chosen_kinematics(config), scene, built,
                                                           scene.sensitivities, scene.sensitivities.origin);
       task.sensitivities = sensitivities.get();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "lib/core/errors.h"
@@ -18,6 +19,22 @@ namespace {
 
 // Shares of SceneParameter::usual_change().
 constexpr double kStepOfFour = 0.3, kStepOfTwo = 0.01, kLastStep = 1e-4;
+
+// Constants of a material that is repaired do not act as they are given.
+void require_unrepaired(const Config& scene, const std::string& path) {
+  if (!path.starts_with("materials.")) return;
+  const std::string material = path.substr(0, path.find('.', std::string("materials.").size()));
+  for (const char* key : {"repair", "symmetrise"}) {
+    const std::string at = material + "." + key;
+    if (!has_value_at(scene, at)) continue;
+    const std::string value = value_at(scene, at).text();
+    if (value != "none" && value != "false")
+      throw ConfigError(path,
+                        fmt::format("the material has {}: {}, so that its constants do not act as they are given; "
+                                    "give those of a stable material, and remove the key",
+                                    key, value));
+  }
+}
 
 // Whether the scene can be read with the parameter at two steps h to both sides.
 bool allows(const Config& scene, const SceneParameter& parameter, double h) {
@@ -72,12 +89,16 @@ double small_displacement(const FemModel& model) {
   return kShare * bounding_box(model.parts().mesh).size().minCoeff();
 }
 
-SceneOutputs named_quantities(std::vector<std::string> names) {
-  return [names = std::move(names)](const Scene& scene, const FemModel& model, const State& state) {
-    const ObservedState observed(model, state);
-    Eigen::VectorXd all(static_cast<Eigen::Index>(names.size()));
-    for (Eigen::Index i = 0; i < all.size(); ++i)
-      all[i] = find_quantity(names[static_cast<std::size_t>(i)], scene, model, {}).values(observed).at(0);
+SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene& scene, const FemModel& model) {
+  std::vector<Quantity> quantities;
+  for (const std::string& name : names) quantities.push_back(find_quantity(name, scene, model, {}));
+  return [quantities](const Scene&, const FemModel& of, const State& state) {
+    const ObservedState observed(of, state);
+    Eigen::VectorXd all(static_cast<Eigen::Index>(quantities.size()));
+    for (Eigen::Index i = 0; i < all.size(); ++i) {
+      const Quantity& quantity = quantities[static_cast<std::size_t>(i)];
+      all[i] = quantity.values ? quantity.values(observed).at(0) : std::numeric_limits<double>::quiet_NaN();
+    }
     return all;
   };
 }
@@ -101,12 +122,17 @@ std::vector<SceneParameter> model_parameters(const Config& scene, const std::vec
   for (const std::string& path : paths) {
     require_part_of_model(path, origin);
     parameters.emplace_back(scene, path);
-    require_changeable(scene, parameters.back());
+    try {
+      require_changeable(scene, parameters.back());
+    } catch (const ConfigError& e) {
+      origin.fail(fmt::format("'{}' cannot be a parameter: {}", path, e.message()));
+    }
   }
   return parameters;
 }
 
 void require_changeable(const Config& scene, const SceneParameter& parameter) {
+  require_unrepaired(scene, parameter.path());
   step_of(scene, parameter, ChangeCount::four);
 }
 

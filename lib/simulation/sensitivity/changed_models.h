@@ -58,8 +58,9 @@ class ChangedModels {
 // Numbers computed from a state of a scene, in SI units.
 using SceneOutputs = std::function<Eigen::VectorXd(const Scene& scene, const FemModel& model, const State& state)>;
 
-// The quantities of these names (lib/scene/quantity.h), which must be single numbers.
-SceneOutputs named_quantities(std::vector<std::string> names);
+// The quantities of these names (lib/scene/quantity.h), which must be single numbers; NaN for the energy balance.
+// Probes are at the nodes that they have in `model`, also in models with another mesh.
+SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene& scene, const FemModel& model);
 
 // A displacement for differences, 1e-4 of the smallest side of the body, in m: a slender body strongly resists larger
 // straight displacements.

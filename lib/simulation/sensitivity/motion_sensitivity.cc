@@ -35,16 +35,15 @@ void require_fixed_breakpoints(const ChangedModels& changed, const FemModel& mod
 
 }  // namespace
 
-bool has_motion_sensitivity(const Scene& scene, const std::vector<std::string>& paths) {
+bool has_motion_sensitivity(const Config& config, const Scene& scene, const std::vector<std::string>& paths) {
   if (scene.is_static() || !scene.integrator->computes_sensitivities()) return false;
+  if (!has_value_at(config, "integrator.type") || value_at(config, "integrator.type").text() == "auto") return false;
   Traits traits;
   for (const TermChoice* term : scene.force_terms()) term->declare(traits);
   return traits.smooth && std::none_of(paths.begin(), paths.end(), [](const std::string& path) {
-           return path.find(".factor.") != std::string::npos;
+           return path.find(".factor.") != std::string::npos || path.find(".kinks.") != std::string::npos;
          });
 }
-
-MotionSensitivity::~MotionSensitivity() = default;
 
 MotionSensitivity::MotionSensitivity(const Config& config, const Scene& scene, const BuiltScene& built,
                                      const std::vector<std::string>& paths, const SourceLocation& origin)
@@ -58,24 +57,26 @@ MotionSensitivity::MotionSensitivity(const Config& config, const Scene& scene, c
     parameters_.push_back(one);
     changed_.emplace_back(config, model_, one, ChangeCount::two, ChangedMotion::as_given);
     require_fixed_breakpoints(changed_.back(), model_, scene, one, origin);
-    initial_.push_back(initial_derivative(count() - 1, built.initial));
+    initial_.push_back(initial_derivative(count() - 1, config, built.initial));
   }
 }
 
-State MotionSensitivity::initial_derivative(int i, const State& start) const {
+State MotionSensitivity::initial_derivative(int i, const Config& config, const State& start) const {
   State slope{start.t, Vector::Zero(start.q.size()), Vector::Zero(start.v.size())};
   if (scene_.start == Start::rest) {
     slope.q = changed(i).derivative([](const ChangedModels::Changed& one) { return one.built.initial.q; });
     slope.v = changed(i).derivative([](const ChangedModels::Changed& one) { return one.built.initial.v; });
     return slope;
   }
-  // K dq/dp = df/dp at rest.
+  // K dq/dp = df/dp, with supports at rest.
   const Vector zero = Vector::Zero(start.q.size());
-  const Vector load = changed(i).derivative(
+  const ChangedModels at_rest_too(config, model_, parameter(i), ChangeCount::two, ChangedMotion::still);
+  const Vector load = at_rest_too.derivative(
       [&](const ChangedModels::Changed& one) { return residual(one.model(), start.t, start.q, zero, zero); });
   const bool is_general = has_unsymmetric_load(scene_, model_.parts().mesh);
-  const BuiltScene own = is_general ? build(scene_, nullptr, MatrixStorage::general) : BuiltScene();
-  const FemModel& model = is_general ? *own.model : model_;
+  const BuiltScene resting =
+      build(at_rest(scene_), nullptr, is_general ? MatrixStorage::general : MatrixStorage::by_elasticity);
+  const FemModel& model = *resting.model;
   Linearization tangent;
   model.linearize(start.t, start.q, zero, TangentKind::exact, tangent);
   std::vector<double> values(model.pattern().row.size());

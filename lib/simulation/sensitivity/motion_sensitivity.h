@@ -17,9 +17,10 @@
 
 namespace orthodyn {
 
-// Whether the scene is a motion whose integrator computes the derivatives with respect to these parameters: without
-// contact, and without numbers of factors in time, which may move kinks.
-bool has_motion_sensitivity(const Scene& scene, const std::vector<std::string>& paths);
+// Whether the scene is a motion whose integrator, named in `config`, computes the derivatives with respect to these
+// parameters: without contact, and without numbers of factors in time and of kinks. False for `auto`, which would
+// choose another method than without sensitivities.
+bool has_motion_sensitivity(const Config& config, const Scene& scene, const std::vector<std::string>& paths);
 
 class MotionSensitivity final : public SensitivityEquations {
  public:
@@ -29,7 +30,6 @@ class MotionSensitivity final : public SensitivityEquations {
   // from an equilibrium whose stiffness is singular.
   MotionSensitivity(const Config& config, const Scene& scene, const BuiltScene& built,
                     const std::vector<std::string>& paths, const SourceLocation& origin);
-  ~MotionSensitivity() override;
 
   const std::vector<SceneParameter>& parameters() const { return parameters_; }
 
@@ -49,7 +49,7 @@ class MotionSensitivity final : public SensitivityEquations {
  private:
   const SceneParameter& parameter(int i) const { return parameters_[static_cast<std::size_t>(i)]; }
   const ChangedModels& changed(int i) const { return changed_[static_cast<std::size_t>(i)]; }
-  State initial_derivative(int i, const State& start) const;
+  State initial_derivative(int i, const Config& config, const State& start) const;
   // K s + D s'.
   void tangential_force(const ConstVectorRef& s, const ConstVectorRef& s_dot, VectorRef out) const;
   void move_to(double t, const ConstVectorRef& q, const ConstVectorRef& v, const ConstVectorRef& a);

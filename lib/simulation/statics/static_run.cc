@@ -167,6 +167,15 @@ void write_sensitivities(const Setup& setup, const StaticProblem& problem, const
   orthodyn::write_sensitivities(folder / "sensitivities.csv", scene, model, sensitivity, parameters);
 }
 
+// Without derivatives, the equilibrium is still a result.
+void try_to_write_sensitivities(const RunContext& context, const StaticProblem& problem, const State& last) {
+  try {
+    write_sensitivities(context.setup, problem, last, context.folder.path());
+  } catch (const std::runtime_error& e) {  // ConfigError or RunError
+    context.listener.on_warning(fmt::format("the sensitivities could not be computed: {}", e.what()));
+  }
+}
+
 }  // namespace
 
 RunResult run_static_analysis(RunContext context) {
@@ -195,9 +204,9 @@ RunResult run_static_analysis(RunContext context) {
   result.model = summarize(setup);
   observers.copy_to(result);
   result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.only_this_rank_failed);
-  if (result.outcome.status == Outcome::Status::completed)
-    write_sensitivities(setup, problem, result.outcome.last, folder);
   record.finish(result);
+  if (result.outcome.status == Outcome::Status::completed)
+    try_to_write_sensitivities(context, problem, result.outcome.last);
   context.listener.on_result(result);
   return result;
 }

@@ -40,7 +40,7 @@ double factor_of(const std::string& unit, const std::string& si, const SourceLoc
 
 class Reader {
  public:
-  explicit Reader(const Config& config) : scene_(read_scene(config)), built_(build(scene_)) {}
+  explicit Reader(const Config& config) : config_(config), scene_(read_scene(config)), built_(build(scene_)) {}
 
   std::vector<Datum> read(const Experiment& experiment) {
     for (std::size_t i = 0; i < experiment.measured.size(); ++i) {
@@ -58,6 +58,7 @@ class Reader {
   }
 
   void add_frequencies(const Measurement& m) {
+    double before = 0;
     for (std::size_t k = 0; k < m.frequencies.size(); ++k) {
       const Config given = parsed(m.frequencies[k]);
       if (given.is_null()) continue;
@@ -67,6 +68,8 @@ class Reader {
       } catch (const ConfigError& e) {
         m.origin.fail(fmt::format("frequencies: number {}: {}", k + 1, e.what()));
       }
+      if (value < before) m.origin.fail(fmt::format("frequencies: number {} is below the one before it", k + 1));
+      before = value;
       add_frequency(m, static_cast<int>(k) + 1, value);
     }
   }
@@ -165,10 +168,13 @@ class Reader {
       m.origin.fail(fmt::format("the value {} has no relative deviation: give 'deviation'", value));
     Datum datum{title, entry_, metric, value, deviation, unit, factor_of(unit, si, m.origin)};
     if (is_candidate) datum.relative = m.relative;
-    datum.has_derivatives = scene_.analysis == Analysis::statical || (metric.at && has_motion_sensitivity(scene_, {}));
+    datum.has_derivatives =
+        metric.quantity != kEnergyBalance &&
+        (scene_.analysis == Analysis::statical || (metric.at && has_motion_sensitivity(config_, scene_, {})));
     data_.push_back(std::move(datum));
   }
 
+  const Config& config_;
   Scene scene_;
   BuiltScene built_;
   std::size_t entry_ = 0;

@@ -170,7 +170,8 @@ const Spec<Fit>& Fit::spec() {
           .key("tolerance", &Fit::tolerance, "Relative change of the parameters at which a search ends.",
                {.range = {1e-14, 0.1}})
           .key("refine", &Fit::refine,
-               "Also compute the experiments once on refined meshes, and tell by how much the mesh moves the "
+               "Also compute the experiments once with refined meshes and time steps, and tell by how much these move "
+               "the "
                "parameters.")
           .key("limits", &Fit::limits, "Wall time and memory limits of each run.")
           .check(check_fit);

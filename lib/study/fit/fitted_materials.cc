@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "lib/simulation/sensitivity/scene_parameter.h"
 #include "lib/study/fit/result.h"
 
 namespace orthodyn::study::fit {
@@ -49,7 +50,7 @@ std::vector<FittedMaterial> fitted_materials(const Fit& fit, const Problem& prob
   std::vector<FittedMaterial> out;
   for (const auto& [material, comment] : comments)
     for (const PreparedExperiment& experiment : problem.experiments()) {
-      if (experiment.is_candidate || !experiment.scene.at("materials").has(material)) continue;
+      if (experiment.is_candidate || !has_value_at(experiment.scene, "materials." + material)) continue;
       const Config scene = rounded_scene(problem, result, experiment);
       const Config section = scene.at("materials").at(material);
       std::string yaml =

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <utility>
 
 #include "lib/core/units.h"
@@ -24,9 +27,36 @@ double si_value(const YamlText& value, const std::string& unit) {
   }
 }
 
+// Throws ConfigError at `origin` unless the value is a number of the scene's model that can change by a little.
+void require_parameter(const Config& scene, const std::string& path, const SourceLocation& origin) {
+  constexpr std::array kOthers{"analysis", "buckling", "checkpoint", "events", "expect",       "integrator",
+                               "output",   "statics",  "threads",    "time",   "sensitivities"};
+  const std::string section = path.substr(0, path.find('.'));
+  if (std::find(kOthers.begin(), kOthers.end(), section) != kOthers.end())
+    origin.fail(fmt::format("'{}' is no number of the body, its loads or its supports", path));
+  try {
+    require_changeable(scene, SceneParameter(scene, path));
+  } catch (const ConfigError& e) {
+    origin.fail(fmt::format("'{}' cannot be a parameter: {}", path, e.message()));
+  }
+}
+
+// Throws ConfigError if two parameters have the same path.
+void require_different_paths(const Fit& fit) {
+  std::map<std::string, std::string> known;
+  for (const auto& [name, parameter] : fit.parameters) {
+    std::vector<std::string> paths = parameter.also;
+    paths.push_back(parameter.path);
+    for (const std::string& path : paths)
+      if (const auto [other, is_new] = known.emplace(path, name); !is_new)
+        parameter.origin.fail(fmt::format("'{}' is also the path of the parameter '{}'", path, other->second));
+  }
+}
+
 }  // namespace
 
 Problem::Problem(const Fit& fit) : limits_(fit.limits) {
+  require_different_paths(fit);
   prepare(fit.experiments, false);
   prepare(fit.candidates, true);
   for (const auto& [name, parameter] : fit.parameters) add_parameter(name, parameter);
@@ -65,11 +95,11 @@ void Problem::add_parameter(const std::string& name, const Parameter& parameter)
     std::vector<std::string>& own = experiment.paths.emplace_back();
     for (const std::string& path : fitted.paths) {
       if (!has_value_at(experiment.scene, path)) continue;
-      SceneParameter(experiment.scene, path);  // throws for a value that cannot be changed
+      require_parameter(experiment.scene, path, parameter.origin);
       own.push_back(path);
       const Scene scene = read_scene(experiment.scene);
       for (Datum& datum : experiment.data)
-        if (datum.metric.at && !has_motion_sensitivity(scene, {path})) datum.has_derivatives = false;
+        if (datum.metric.at && !has_motion_sensitivity(experiment.scene, scene, {path})) datum.has_derivatives = false;
       if (!first && path == parameter.path && !experiment.is_candidate) first = experiment.scene;
     }
   }
@@ -88,11 +118,24 @@ void Problem::add_parameter(const std::string& name, const Parameter& parameter)
   fitted.start = parameter.start ? si_value(*parameter.start, si) : in_scene.value();
   if (parameter.lower) fitted.lower = si_value(*parameter.lower, si);
   if (parameter.upper) fitted.upper = si_value(*parameter.upper, si);
+  // Axes are the same after half a turn. Without a bound a first step from a symmetric position may be many turns.
+  if (in_scene.is_angle() && !parameter.lower) fitted.lower = fitted.start - std::numbers::pi / 2;
+  if (in_scene.is_angle() && !parameter.upper) fitted.upper = fitted.start + std::numbers::pi / 2;
+  // A forgotten unit.
+  constexpr double kFar = 1e4;
+  if (const double ratio = std::abs(fitted.start / in_scene.value());
+      parameter.start && fitted.start != 0 && in_scene.value() != 0 && (ratio > kFar || ratio < 1 / kFar))
+    parameter.origin.fail(
+        fmt::format("the start {:.6g} {} is {:.1g} times the value {:.6g} {} of the scene: is its unit "
+                    "missing?",
+                    fitted.start / fitted.factor, fitted.unit, ratio, in_scene.value() / fitted.factor, fitted.unit));
   if (parameter.prior) {
     fitted.prior = si_value(parameter.prior->value, si);
     fitted.deviation = si_value(parameter.prior->deviation, si);
     if (!(*fitted.deviation > 0)) parameter.origin.fail("prior: the deviation must be positive");
   }
+  if (fitted.lower && fitted.upper && !(*fitted.lower < *fitted.upper))
+    parameter.origin.fail("'lower' must be below 'upper'");
   if (fitted.start < fitted.lower.value_or(fitted.start) || fitted.start > fitted.upper.value_or(fitted.start))
     parameter.origin.fail(
         fmt::format("the start {:.6g} {} is outside of the bounds", fitted.start / fitted.factor, fitted.unit));

@@ -47,7 +47,7 @@ struct Evaluation {
 
 // A selection of experiments.
 enum class Experiments { measured, candidates };
-// The scenes' own meshes, or those refined once.
+// The scenes' own meshes and time steps, or those refined once.
 enum class Meshes { own, refined };
 
 // Where and how jobs are run.

@@ -217,6 +217,10 @@ std::vector<std::string> findings(const Problem& problem, const Result& result) 
   return out;
 }
 
+bool measures_modes(const Problem& problem) {
+  return std::ranges::any_of(problem.data(), [](const Datum* datum) { return datum->metric.mode.has_value(); });
+}
+
 std::vector<std::string> warnings(const Problem& problem, const Result& result) {
   std::vector<std::string> out = close_modes(problem, result.search().at);
   const Search& search = result.search();
@@ -225,12 +229,11 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
     out.push_back(
         fmt::format("the search did not converge ({}): give other start values, or more iterations", search.message));
   if (noise.factor > 1)
-    out.push_back(
-        fmt::format("the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are "
-                    "wrong{}. The "
-                    "intervals are enlarged by this factor",
-                    noise.factor,
-                    result.attempts.size() == 1 ? ", or a better result is far from the start (try starts: 10)" : ""));
+    out.push_back(fmt::format(
+        "the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are "
+        "wrong{}{}. The intervals are enlarged by this factor",
+        noise.factor, result.attempts.size() == 1 ? ", or a better result is far from the start (try starts: 10)" : "",
+        measures_modes(problem) ? ", or modes are matched wrongly, which is by their order" : ""));
   // Residuals far below the deviations do not matter, also if they are no noise.
   constexpr double kNegligible = 0.1;
   const bool matters = noise.chi_square > kNegligible * static_cast<double>(noise.freedom);
@@ -238,6 +241,12 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
     out.push_back(
         "neighbouring residuals have the same sign more often than noise has: the scene lacks something that the "
         "measurement has, and the intervals are too small");
+  if (noise.freedom <= 0 && noise.chi_square > 1)
+    out.push_back(fmt::format(
+        "the measured values are not reached (chi-square {:.3g}), although there are as many parameters: the model or "
+        "the "
+        "values are wrong, or a better result is far from the start (try starts: 10). The intervals have no meaning",
+        noise.chi_square));
   if (noise.freedom == 0)
     out.push_back("there are as many parameters as measured values, so the fit cannot be tested: measure more");
   for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
@@ -249,8 +258,9 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
     const double shift = (*result.shift)[static_cast<Eigen::Index>(p)];
     if (std::abs(shift) > kInterval95 * estimate.deviation)
       out.push_back(fmt::format(
-          "refining the meshes once moves {} by {}, more than its 95 % interval ({}): use finer "
-          "meshes in the scenes",
+          "refining the meshes once, and the time steps of motions, moves {} by {}, more than its 95 % interval ({}): "
+          "use "
+          "finer meshes or a smaller rtol in the scenes",
           parameter.name, with_unit(shift / parameter.factor, parameter.unit), precision(problem, estimate, p)));
   }
   if (!result.refinement_failure.empty())

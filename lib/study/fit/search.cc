@@ -32,7 +32,9 @@ Eigen::MatrixXd weighted(const Problem& problem, const Evaluation& at, Experimen
   Eigen::MatrixXd out = *at.derivatives;
   const auto data = problem.data(which);
   for (std::size_t i = 0; i < data.size(); ++i)
-    out.row(static_cast<Eigen::Index>(i)) /= data[i]->deviation_at(at.computed[i]);
+    if (const double deviation = data[i]->deviation_at(at.computed[i]); deviation > 0)
+      out.row(static_cast<Eigen::Index>(i)) /= deviation;
+    else out.row(static_cast<Eigen::Index>(i)).setZero();  // a candidate whose value is 0, with a relative deviation
   return out;
 }
 
@@ -205,19 +207,26 @@ class Progress : public ceres::IterationCallback {
     if (shared_.must_end()) return ceres::SOLVER_ABORT;
     const bool accepted = summary.iteration == 0 || summary.step_is_successful;
     iterations_.push_back({summary.iteration, 2 * summary.cost, problem_.coordinates().values(z_), accepted,
-                           accepted || summary.step_is_valid ? "" : shared_.failure()});
+                           accepted || shared_.failed == failed_ ? "" : shared_.failure()});
     on_iteration_(iterations_.back());
     return is_lost_in_noise(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
-  // Whether a step was rejected that would have been an improvement of 1e-4 of the sum at most: errors of the runs,
-  // such as those of the time integration, then hide the slope. With residuals like their deviations, such a step is
-  // about 2 % of the parameters' deviations long.
-  static bool is_lost_in_noise(const ceres::IterationSummary& summary) {
+  // Whether errors of the runs, such as those of the time integration, hide the slope: a step was rejected, or three
+  // steps in a row were accepted, that changed the sum by 1e-4 of it at most. With residuals like their deviations,
+  // such a step is about 2 % of the parameters' deviations long. A failed run is no such step.
+  bool is_lost_in_noise(const ceres::IterationSummary& summary) {
     constexpr double kNegligible = 1e-4;
-    if (summary.step_is_successful || !summary.step_is_valid || summary.relative_decrease >= 0) return false;
-    return summary.cost_change / summary.relative_decrease < kNegligible * summary.cost;
+    constexpr int kAccepted = 3;
+    const bool failed = shared_.failed > failed_;
+    failed_ = shared_.failed;
+    const bool is_step = summary.iteration > 0 && summary.step_is_valid && !failed;
+    if (!is_step || std::abs(summary.cost_change) > kNegligible * summary.cost) {
+      negligible_ = 0;
+      return false;
+    }
+    return !summary.step_is_successful || ++negligible_ == kAccepted;
   }
 
   const Problem& problem_;
@@ -225,6 +234,8 @@ class Progress : public ceres::IterationCallback {
   const Vector& z_;
   std::vector<Iteration>& iterations_;
   const std::function<void(const Iteration&)>& on_iteration_;
+  std::size_t failed_ = 0;
+  int negligible_ = 0;
 };
 
 void require_effects(const Problem& problem, const Fit& fit, const Residuals& at_start) {

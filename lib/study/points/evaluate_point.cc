@@ -81,8 +81,8 @@ class TimedMeshError : public MeshErrorRecorder {
 // Derivatives of named quantities at the output times of a motion.
 class SlopeRecorder : public Observer {
  public:
-  SlopeRecorder(const Setup& setup, std::vector<std::string> quantities)
-      : setup_(setup), outputs_(named_quantities(std::move(quantities))) {}
+  SlopeRecorder(const Setup& setup, const std::vector<std::string>& quantities)
+      : setup_(setup), outputs_(named_quantities(quantities, setup.scene, *setup.built.model)) {}
 
   void on_start(const ObservedState& observed) override {
     times_.push_back(observed.t());
@@ -239,8 +239,11 @@ class Evaluation {
   Config with_sensitivities() const {
     Config copy = config_.copy();
     const auto at_time = [](const WantedMetric& m) { return m.at.has_value(); };
-    if (!input_.parameters.empty() && wants(at_time) && has_motion_sensitivity(read_scene(config_), input_.parameters))
-      copy.set_yaml("sensitivities", "[" + fmt::format("{}", fmt::join(input_.parameters, ", ")) + "]");
+    const bool has_own = copy.is_map() && copy.has("sensitivities");
+    if (has_own) copy.set_yaml("sensitivities", "[]");
+    if (!input_.parameters.empty() && wants(at_time) &&
+        has_motion_sensitivity(copy, read_scene(copy), input_.parameters))
+      copy.set_yaml("sensitivities", fmt::format("[{}]", fmt::join(input_.parameters, ", ")));
     return copy;
   }
 
@@ -296,8 +299,9 @@ class Evaluation {
   void find_derivatives(const Setup& setup, const LoadPath& path, const State& equilibrium,
                         const WantedQuantities& wanted) {
     const auto all = parameters();
-    if (all.empty()) return;
-    const EquilibriumSensitivity sensitivity(setup.config, setup.scene, *setup.built.model, path, equilibrium);
+    if (all.empty() || wanted.metrics.empty()) return;
+    const Config config = with_chosen_kinematics(setup.config);
+    const EquilibriumSensitivity sensitivity(config, setup.scene, *setup.built.model, path, equilibrium);
     std::vector<std::string> names;
     for (const auto* metric : wanted.metrics) {
       names.push_back(metric->second.quantity);
@@ -305,7 +309,7 @@ class Evaluation {
     }
     auto* const first = &result_.derivatives[result_.derivatives.size() - names.size()];
     for (const SceneParameter& parameter : all) {
-      const auto slopes = sensitivity.derivatives(parameter, named_quantities(names));
+      const auto slopes = sensitivity.derivatives(parameter, named_quantities(names, setup.scene, *setup.built.model));
       for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[static_cast<Eigen::Index>(i)]);
     }
   }
