@@ -216,7 +216,7 @@ TEST_F(FitCommand, EndsAtAStableMaterialForDataThatNoneExplains) {
   const auto result = fit(strip_fit(measured, std::string(kFour) + "iterations: 12\nrefine: false\n"));
   EXPECT_NE(result.output.find("times as large as the stated deviations"), std::string::npos) << result.output;
   const Json iterations = table().at("attempts").at(0).at("iterations");
-  EXPECT_LT(iterations.back().at("chi_square").get<double>(), iterations.front().at("chi_square").get<double>() / 2);
+  EXPECT_LT(iterations.back().at("chi_square").get<double>(), 0.9 * iterations.front().at("chi_square").get<double>());
   const double e1 = parameter(0).at("value").get<double>(), e2 = parameter(1).at("value").get<double>();
   const double nu12 = parameter(3).at("value").get<double>();
   EXPECT_LT(std::abs(nu12) * std::sqrt(e2 / e1), 1);

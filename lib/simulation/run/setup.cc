@@ -187,6 +187,11 @@ Setup set_up(Config config, Scene scene, bool resumes_linear, bool is_timed, con
       sensitivities = std::make_unique<MotionSensitivity>(with_chosen_kinematics(config), scene, built,
                                                           scene.sensitivities, scene.sensitivities.origin);
       task.sensitivities = sensitivities.get();
+      if (scene.output.reactions)
+        built.warnings.push_back(scene.sensitivities.origin.where +
+                                 ": derivatives of reactions contain accelerations of stiff modes and are far less "
+                                 "accurate than rtol; compare "
+                                 "them with those of a run with a smaller integrator.rtol");
     }
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
