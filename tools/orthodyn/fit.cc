@@ -35,8 +35,12 @@ class Printer {
 
   void iteration(const Iteration& one) {
     if (quiet_) return;
-    if (!one.accepted)
-      return fmt::print("  {:3}  step rejected{}\n", one.number, one.failure.empty() ? "" : ": " + one.failure);
+    if (!one.accepted) {
+      constexpr std::size_t kShown = 100;  // its beginning names the cause
+      const std::string more = one.failure.size() > kShown ? "..." : "";
+      return fmt::print("  {:3}  step rejected{}{}{}\n", one.number, one.failure.empty() ? "" : ": ",
+                        one.failure.substr(0, kShown), more);
+    }
     fmt::print("  {:3}  chi-square {:<10.5g}  {}\n", one.number, one.chi_square, values_text(problem_, one.values));
     std::fflush(stdout);
   }
