@@ -29,7 +29,8 @@ struct Equilibrium {
   }
   double derivative(const std::string& path, const std::string& quantity) const {
     return EquilibriumSensitivity(setup.config, setup.scene, *setup.built.model, *problem.path, state)
-        .derivatives(SceneParameter(setup.config, path), named_quantities({quantity}, setup.scene, *setup.built.model))[0];
+        .derivatives(SceneParameter(setup.config, path),
+                     named_quantities({quantity}, setup.scene, *setup.built.model))[0];
   }
 
   Setup setup;
