@@ -119,6 +119,15 @@ class AResult(InAFolder):
         tip = np.argmin(np.linalg.norm(result.points - [1, 0, 0], axis=1))
         np.testing.assert_array_equal(result.displacement[:, tip, 2], result.probes["tip.displacement.z"])
 
+    def test_has_sensitivities(self):
+        def tip(gravity):
+            return orthodyn.Scene(beam(gravity=[0, 0, gravity])).run().probes["tip.displacement.z"]
+        result = orthodyn.Scene(beam(sensitivities=["gravity.2", "materials.wood.density"])).run()
+        found = result.sensitivities["d tip.displacement.z / d gravity.2"]
+        expected = (tip(-9.91) - tip(-9.71)) / -0.2
+        np.testing.assert_allclose(found, expected, atol=0.02 * np.abs(expected).max())
+        self.assertEqual(len(result.sensitivities["d energy.elastic / d materials.wood.density"]), len(result.times))
+
     def test_of_a_harmonic_analysis_has_complex_amplitudes(self):
         result = orthodyn.Scene({
             "analysis": "harmonic", "mesh": beam()["mesh"] | {"size": [1, 0.2, 0.1]}, "materials": beam()["materials"],
