@@ -3,7 +3,8 @@
 //
 //   M s'' = -K s - D s' + g,   g = df/dp - (dM/dp) q'',   K = -df/dq,   D = -df/dv
 //
-// Units: those of Model; s in m and s' in m/s, both per unit of the parameter.
+// Units: for a mechanical model, s is in m and s' in m/s, per SI unit of the parameter; all other units are those of
+// Model.
 //
 // Source: Maly & Petzold (1996), Appl. Numer. Math. 20, 57-79.
 #pragma once

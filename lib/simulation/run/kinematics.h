@@ -34,7 +34,8 @@ bool has_linear_region(const Scene& scene);
 // Changes `auto` to `corotational` in the document, for all regions.
 void make_corotational(Config& config);
 
-// A copy of the document of a scene whose kinematics are chosen: what is still `auto` has been chosen to be linear.
+// A copy of the document in which `linear` replaces `auto`. Precondition: choose_kinematics() has changed the document,
+// so that the regions it left at `auto` have linear kinematics.
 Config with_chosen_kinematics(const Config& config);
 
 // Builds a scene with `auto` kinematics. Regions with `auto` become linear, except those for which the linear static

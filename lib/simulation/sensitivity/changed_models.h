@@ -26,7 +26,7 @@ class ChangedModels {
  public:
   struct Changed {
     double change;  // of the parameter, SI units
-    Scene scene;
+    Scene scene;    // static with ChangedMotion::still
     BuiltScene built;
     const FemModel& model() const { return *built.model; }
   };

@@ -233,7 +233,8 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
         "the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are "
         "wrong{}{}. The intervals are enlarged by this factor",
         noise.factor, result.attempts.size() == 1 ? ", or a better result is far from the start (try starts: 10)" : "",
-        measures_modes(problem) ? ", or modes are matched wrongly, which is by their order" : ""));
+        measures_modes(problem) ? ", or computed modes, which are matched by their order, belong to other measured ones"
+                                : ""));
   // Residuals far below the deviations do not matter, also if they are no noise.
   constexpr double kNegligible = 0.1;
   const bool matters = noise.chi_square > kNegligible * static_cast<double>(noise.freedom);
@@ -244,8 +245,8 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
   if (noise.freedom <= 0 && noise.chi_square > 1)
     out.push_back(fmt::format(
         "the measured values are not reached (chi-square {:.3g}), although there are as many parameters: the model or "
-        "the "
-        "values are wrong, or a better result is far from the start (try starts: 10). The intervals have no meaning",
+        "the values are wrong, or a better result is far from the start (try starts: 10). The intervals have no "
+        "meaning",
         noise.chi_square));
   if (noise.freedom == 0)
     out.push_back("there are as many parameters as measured values, so the fit cannot be tested: measure more");
@@ -259,8 +260,7 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
     if (std::abs(shift) > kInterval95 * estimate.deviation)
       out.push_back(fmt::format(
           "refining the meshes once, and the time steps of motions, moves {} by {}, more than its 95 % interval ({}): "
-          "use "
-          "finer meshes or a smaller rtol in the scenes",
+          "use finer meshes or a smaller rtol in the scenes",
           parameter.name, with_unit(shift / parameter.factor, parameter.unit), precision(problem, estimate, p)));
   }
   if (!result.refinement_failure.empty())

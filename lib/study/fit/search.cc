@@ -209,14 +209,15 @@ class Progress : public ceres::IterationCallback {
     iterations_.push_back({summary.iteration, 2 * summary.cost, problem_.coordinates().values(z_), accepted,
                            accepted || shared_.failed == failed_ ? "" : shared_.failure()});
     on_iteration_(iterations_.back());
-    return is_lost_in_noise(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    return is_settled(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
-  // Whether errors of the runs, such as those of the time integration, hide the slope: a step was rejected, or three
-  // steps in a row were accepted, that changed the sum by 1e-4 of it at most. With residuals like their deviations,
-  // such a step is about 2 % of the parameters' deviations long. A failed run is no such step.
-  bool is_lost_in_noise(const ceres::IterationSummary& summary) {
+  // Whether the search ends, because further steps hardly change the sum of squares: the last step was rejected and
+  // changed the sum by at most 1e-4 of it, or the last three steps were accepted and each changed it by so little. Near
+  // the minimum, errors of the runs (of the time integration, for example) hide the slope. A failed run does not end
+  // the search.
+  bool is_settled(const ceres::IterationSummary& summary) {
     constexpr double kNegligible = 1e-4;
     constexpr int kAccepted = 3;
     const bool failed = shared_.failed > failed_;
@@ -297,9 +298,9 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   shared.PrepareForEvaluation(true, true);  // derivatives at the end
   shared.rethrow();
   if (!shared.succeeded()) throw Failed(shared.failure());
-  const bool ended_in_noise = summary.termination_type == ceres::USER_SUCCESS;
-  out.converged = ended_in_noise || summary.termination_type == ceres::CONVERGENCE;
-  out.message = ended_in_noise ? "the errors of the runs hide further improvements" : summary.message;
+  const bool has_settled = summary.termination_type == ceres::USER_SUCCESS;
+  out.converged = has_settled || summary.termination_type == ceres::CONVERGENCE;
+  out.message = has_settled ? "further steps change chi-square by less than 1e-4 of it" : summary.message;
   out.cost = summary.final_cost;
   out.at = shared.evaluation();
   out.computed_at_start = shared.first();
