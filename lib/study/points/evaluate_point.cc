@@ -22,6 +22,7 @@
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/points/evaluation.h"
+#include "lib/study/points/slope_recorder.h"
 #include "lib/study/quantities/response_metric.h"
 #include "lib/study/quantities/series.h"
 #include "lib/study/quantities/wanted_modes.h"
@@ -76,47 +77,6 @@ class TimedMeshError : public MeshErrorRecorder {
     wall_seconds += watch.wall();
   }
   double cpu_seconds = 0, wall_seconds = 0;
-};
-
-// Derivatives of named quantities at the output times of a motion.
-class SlopeRecorder : public Observer {
- public:
-  SlopeRecorder(const Setup& setup, const std::vector<std::string>& quantities)
-      : setup_(setup), outputs_(named_quantities(quantities, setup.scene, *setup.built.model)) {}
-
-  void on_start(const ObservedState& observed) override {
-    times_.push_back(observed.t());
-    for (int i = 0; i < setup_.sensitivities->count(); ++i) record(i, observed, setup_.sensitivities->initial(i));
-  }
-  void on_output(const ObservedState& observed) override {
-    times_.push_back(observed.t());
-    for (int i = 0; i < setup_.sensitivities->count(); ++i) {
-      State slope;
-      setup_.integrator->interpolate_sensitivity(i, observed.t(), slope);
-      record(i, observed, slope);
-    }
-  }
-
-  // Of a quantity at the start or the output time nearest to t, by parameter.
-  std::vector<double> at(std::size_t quantity, double t) const {
-    const auto nearest = std::min_element(times_.begin(), times_.end(),
-                                          [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
-    const auto count = static_cast<std::size_t>(setup_.sensitivities->count());
-    const auto first = static_cast<std::size_t>(nearest - times_.begin()) * count;
-    std::vector<double> out;
-    for (std::size_t i = 0; i < count; ++i) out.push_back(slopes_[first + i][static_cast<Eigen::Index>(quantity)]);
-    return out;
-  }
-
- private:
-  void record(int i, const ObservedState& observed, const State& slope) {
-    slopes_.push_back(setup_.sensitivities->derivative(i, observed.state(), slope, outputs_));
-  }
-
-  const Setup& setup_;
-  SceneOutputs outputs_;
-  std::vector<double> times_;
-  std::vector<Eigen::VectorXd> slopes_;  // all parameters of the first time, then of the second, ...
 };
 
 class Evaluation {
