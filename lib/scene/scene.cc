@@ -102,8 +102,8 @@ const Spec<Scene>& Scene::spec() {
           .key("output", &Scene::output, "Output files.")
           .key("sensitivities", &Scene::sensitivities,
                "Numbers of the scene by their paths, such as materials.wood.young.0: sensitivities.csv gets the "
-               "derivatives of probes, reactions and energies with respect to them. For analysis: static, and for "
-               "motions with cvode_bdf, cvode_adams or ida_bdf.")
+               "derivatives of probes, reactions and energies, or of critical load factors, with respect to them. For "
+               "analysis: static and buckling, and for motions with cvode_bdf, cvode_adams or ida_bdf.")
           .key("checkpoint", &Scene::checkpoint,
                "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {}: every "
                "minute.",
@@ -352,9 +352,9 @@ void require_countable_times(const Config& config, const Scene& scene) {
 
 void check_sensitivities(const Scene& scene) {
   if (scene.sensitivities.empty()) return;
-  if (scene.analysis == Analysis::buckling || scene.analysis == Analysis::harmonic)
+  if (scene.analysis == Analysis::harmonic)
     scene.sensitivities.origin.fail(
-        "are computed for analysis: dynamic and static only; those of natural frequencies by `orthodyn modes "
+        "are computed for analysis: dynamic, static and buckling only; those of natural frequencies by `orthodyn modes "
         "--sensitivity`");
   if (scene.integrator && !scene.integrator->computes_sensitivities())
     scene.sensitivities.origin.fail(

@@ -128,6 +128,16 @@ class AResult(InAFolder):
         np.testing.assert_allclose(found, expected, atol=0.02 * np.abs(expected).max())
         self.assertEqual(len(result.sensitivities["d energy.elastic / d materials.wood.density"]), len(result.times))
 
+    def test_of_a_buckling_analysis_has_sensitivities(self):
+        result = orthodyn.Scene({
+            "analysis": "buckling", "mesh": {"type": "box", "size": [1, 0.05, 0.02], "cells": [10, 2, 2]},
+            "materials": {"m": {"type": "isotropic", "density": 1000, "young": 1e9, "nu": 0}}, "clamps": [{"surface": "x0"}],
+            "loads": [{"surface": "x1", "force": [-10, 0, 0]}], "buckling": {"count": 2},
+            "sensitivities": ["materials.m.young", "loads.0.force.0"]}).run()
+        found = result.sensitivities
+        np.testing.assert_allclose(found["d load_factor / d materials.m.young"], found["load_factor"] / 1e9, rtol=1e-5)
+        np.testing.assert_allclose(found["d load_factor / d loads.0.force.0"], found["load_factor"] / 10, rtol=1e-5)
+
     def test_of_a_harmonic_analysis_has_complex_amplitudes(self):
         result = orthodyn.Scene({
             "analysis": "harmonic", "mesh": beam()["mesh"] | {"size": [1, 0.2, 0.1]}, "materials": beam()["materials"],

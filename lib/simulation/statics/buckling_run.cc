@@ -1,10 +1,15 @@
 // Buckling analysis of a scene: writes buckling.csv, and the shapes as modes.pvd.
+#include <fmt/format.h>
+
 #include "lib/analysis/buckling.h"
+#include "lib/core/errors.h"
 #include "lib/simulation/modes/mode_files.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
+#include "lib/simulation/sensitivity/buckling_sensitivity.h"
+#include "lib/simulation/sensitivity/changed_models.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
@@ -42,6 +47,20 @@ void write(const std::filesystem::path& folder, const FemModel& model, const Sta
   write_shapes(folder, model, rest, shapes);
 }
 
+// Without derivatives, the load factors are still a result.
+void try_to_write_sensitivities(const RunContext& context, const State& rest, const BucklingModes& modes) {
+  const Setup& setup = context.setup;
+  if (setup.scene.sensitivities.empty()) return;
+  try {
+    const Config config = with_chosen_kinematics(setup.config);
+    const auto parameters = model_parameters(config, setup.scene.sensitivities, setup.scene.sensitivities.origin);
+    const auto sensitivities = buckling_sensitivities(config, *setup.built.model, rest.q, rest.t, modes, parameters);
+    write_sensitivities(context.folder.path(), modes, sensitivities);
+  } catch (const std::runtime_error& e) {  // ConfigError or RunError
+    context.listener.on_warning(fmt::format("the sensitivities could not be computed: {}", e.what()));
+  }
+}
+
 }  // namespace
 
 RunResult run_buckling_analysis(RunContext context) {
@@ -49,6 +68,9 @@ RunResult run_buckling_analysis(RunContext context) {
   const FemModel& model = *setup.built.model;
   const double t = setup.scene.time.end;
   require_held(setup.scene, model, t);
+  if (!setup.scene.sensitivities.empty() && !model.traits().smooth)
+    setup.scene.sensitivities.origin.fail(
+        "are not computed with contact: the force has kinks, at which load factors have no derivative");
   context.folder.prepare();
   const auto& folder = context.folder.path();
   const RunRecord record(folder, context.scene, context.set, {}, setup.config);
@@ -67,6 +89,7 @@ RunResult run_buckling_analysis(RunContext context) {
     result.buckling = describe(model, rest, found, count);
     result.buckling->unsymmetric = has_unsymmetric_load(setup.scene, model.parts().mesh);
     write(folder, model, rest, modes, *result.buckling);
+    try_to_write_sensitivities(context, rest, found);
     outcome.status = Outcome::Status::completed;
   });
   result.model = summarize(setup);

@@ -16,6 +16,7 @@
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/run/several_ranks.h"
+#include "lib/simulation/sensitivity/buckling_sensitivity.h"
 #include "lib/simulation/sensitivity/equilibrium_sensitivity.h"
 #include "lib/simulation/sensitivity/frequency_sensitivity.h"
 #include "lib/simulation/statics/load_steps.h"
@@ -170,11 +171,20 @@ class Evaluation {
     for (const auto& [name, m] : input_.metrics) count = std::max(count, m.buckling.value_or(0));
     if (count == 0) return;
     require_held(scene, *built.model, scene.time.end);
-    const auto modes = buckling_modes(*built.model, unloaded_shape(scene, built), scene.time.end, count).modes;
+    const double t = scene.time.end;
+    const Vector unloaded = unloaded_shape(scene, built);
+    const BucklingModes found = buckling_modes(*built.model, unloaded, t, count);
+    const bool has_slopes = built.model->traits().smooth;
+    const auto slopes = buckling_sensitivities(config_, *built.model, unloaded, t, found,
+                                               has_slopes ? parameters() : std::vector<SceneParameter>{});
     for (const auto& [name, m] : input_.metrics) {
       if (!m.buckling) continue;
       const auto k = static_cast<std::size_t>(*m.buckling - 1);
-      keep(name, k < modes.size() ? modes[k].load_factor : std::nan(""), "");
+      const bool exists = k < found.modes.size();
+      keep(name, exists ? found.modes[k].load_factor : std::nan(""), "");
+      if (!exists || slopes.empty()) continue;
+      std::vector<double>& own = result_.derivatives.emplace_back(name, std::vector<double>{}).second;
+      for (const BucklingSensitivity& slope : slopes) own.push_back(slope.derivatives[k]);
     }
   }
 

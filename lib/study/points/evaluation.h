@@ -45,8 +45,8 @@ struct EvaluationResult {
   std::string frame;                 // file of the picture's state, relative to the point's folder; "" for none
   std::optional<double> mesh_error;  // MeshError::relative, of the motion or the equilibrium
   Named<double> metric_errors;       // estimated relative excess of natural frequencies
-  // By metric: its derivative with respect to each of the input's parameters, in SI units. Quantities in equilibrium
-  // and natural frequencies about rest have derivatives, other metrics have none.
+  // By metric: its derivative with respect to each of the input's parameters, in SI units. Quantities in equilibrium,
+  // natural frequencies about rest and critical load factors have derivatives.
   Named<std::vector<double>> derivatives;
   std::string kinematics;  // choice made for `kinematics: auto` and its reason; "" for other kinematics
   std::vector<std::string> warnings;

@@ -176,7 +176,8 @@ class Result:
     @property
     def sensitivities(self) -> dict[str, np.ndarray]:
         """Derivatives of probes, reactions and energies with respect to the scene's `sensitivities`, per SI unit of the
-        parameter: t (or the load factor), "d tip.displacement.z / d materials.wood.young.0", ..."""
+        parameter: t (or the load factor), "d tip.displacement.z / d materials.wood.young.0", ... In a buckling analysis
+        "mode", "load_factor" and "d load_factor / d materials.wood.young.0", one row per mode."""
         return self.table("sensitivities")
 
     @property
