@@ -65,6 +65,20 @@ class AModel(unittest.TestCase):
         np.testing.assert_allclose((2 * np.pi * found.frequencies) ** 2, np.sort(expected), rtol=1e-8)
         np.testing.assert_allclose(found.shapes @ (self.model.mass @ found.shapes.T), np.eye(6), atol=1e-10)
 
+    def test_has_the_derivatives_of_modes(self):
+        """Frequencies and shapes of unit modal mass are proportional to 1 / sqrt(density)."""
+        path, density = "materials.wood.density", beam()["materials"]["wood"]["density"]
+        found = self.model.modes(3, sensitivities=[path], shape_sensitivities=True)
+        np.testing.assert_allclose(found.frequency_sensitivities[path], -found.frequencies / (2 * density), rtol=1e-6)
+        np.testing.assert_allclose(found.shape_sensitivities[path], -found.shapes / (2 * density), rtol=0,
+                                   atol=1e-6 * np.abs(found.shapes).max() / density)
+        self.assertEqual(self.model.modes(3, sensitivities=path).shape_sensitivities, {})
+        for wrong in ({"sensitivities": [path], "about_equilibrium": True}, {"shape_sensitivities": True}):
+            with self.assertRaisesRegex(ValueError, "sensitivities: "):
+                self.model.modes(3, **wrong)
+        with self.assertRaisesRegex(orthodyn.ConfigError, "no key 'densty'"):
+            self.model.modes(3, sensitivities=[path.replace("density", "densty")])
+
     def test_is_in_equilibrium_where_it_says(self):
         q = self.model.equilibrium()
         weight = np.linalg.norm(self.model.force(0.2, np.zeros(self.model.n)))

@@ -12,20 +12,22 @@
 
 namespace orthodyn {
 
-// The Float32 arrays of a .vtu, by name.
-inline std::map<std::string, std::vector<float>> read_fields(const fs::path& path) {
+// The arrays of a .vtu in single (or double) precision, by name.
+template <class Number = float>
+std::map<std::string, std::vector<Number>> read_fields(const fs::path& path) {
   const std::string text = read_text(path);
   const std::string mark = "<AppendedData encoding=\"raw\">\n_";
   const auto base = text.find(mark) + mark.size();
-  std::map<std::string, std::vector<float>> fields;
-  const std::string opening = "<DataArray type=\"Float32\" Name=\"";
+  std::map<std::string, std::vector<Number>> fields;
+  const std::string opening =
+      sizeof(Number) == sizeof(float) ? "<DataArray type=\"Float32\" Name=\"" : "<DataArray type=\"Float64\" Name=\"";
   for (auto at = text.find(opening); at < base; at = text.find(opening, at + 1)) {
     const auto name = at + opening.size(), offset = text.find("offset=\"", at) + 8;
     std::uint64_t bytes = 0;
     const char* block = text.data() + base + std::stoul(text.substr(offset));
     std::memcpy(&bytes, block, sizeof bytes);
     auto& values = fields[text.substr(name, text.find('"', name) - name)];
-    values.resize(bytes / sizeof(float));
+    values.resize(bytes / sizeof(Number));
     std::memcpy(values.data(), block + sizeof bytes, bytes);
   }
   return fields;

@@ -9,6 +9,7 @@
 #include "lib/simulation/modes/modal_analysis.h"
 #include "lib/simulation/modes/mode_files.h"
 #include "lib/simulation/sensitivity/frequency_sensitivity.h"
+#include "lib/simulation/sensitivity/shape_sensitivity_files.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -24,7 +25,7 @@ struct ModesArguments {
   std::vector<std::string> set, sensitivities;
   std::optional<std::string> out;
   int count = 20;
-  bool equilibrium = false, picture = false, quiet = false, force = false;
+  bool equilibrium = false, shape_sensitivities = false, picture = false, quiet = false, force = false;
 };
 
 void print_zeros(const Modes& modes, int rigid) {
@@ -92,23 +93,38 @@ void print_sensitivities(const Modes& modes, const std::vector<FrequencySensitiv
   }
 }
 
+// Modes whose shapes have no derivatives, with the reasons; not the rigid ones.
+void print_missing_shapes(const ModalAnalysis& analysis, const ShapeSensitivities& sensitivities) {
+  for (auto k = static_cast<std::size_t>(analysis.modes().zeros); k < sensitivities.missing.size(); ++k)
+    if (!sensitivities.missing[k].empty())
+      fmt::print("the shape of mode {} has no derivative: {}\n", k + 1, sensitivities.missing[k]);
+}
+
 int compute_modes(const ModesArguments& arguments) {
   const fs::path folder =
       arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
   check_modes_folder(folder, arguments.force);
   if (arguments.equilibrium && !arguments.sensitivities.empty())
     throw ConfigError("--sensitivity", "is available for modes about rest only; leave out --equilibrium");
+  if (arguments.shape_sensitivities && arguments.sensitivities.empty())
+    throw ConfigError("--shape-sensitivities", "needs a number of the scene: add --sensitivity PATH");
   const Setup setup = set_up_without_time(arguments.scene, {.set = arguments.set}, false).setup;
   const auto parameters = scene_parameters(setup.config, arguments.sensitivities);
   const ModalAnalysis analysis(setup, arguments.count, arguments.equilibrium);
   write_modes(folder, analysis);
   const auto sensitivities = frequency_sensitivities(setup.config, analysis, parameters);
   write_sensitivities(folder, analysis, sensitivities);
+  ShapeSensitivities of_shapes;
+  if (arguments.shape_sensitivities) {
+    of_shapes = shape_sensitivities(setup.config, analysis.model(), analysis.about(), analysis.modes(), parameters);
+    write_shape_sensitivities(folder, setup.scene, analysis, of_shapes);
+  }
   if (arguments.quiet) return 0;
   const Modes& modes = analysis.modes();
   print_table(analysis, arguments.equilibrium);
   print_mesh_errors(analysis);
   print_sensitivities(modes, sensitivities);
+  print_missing_shapes(analysis, of_shapes);
   if (analysis.takes_symmetric_part())
     fmt::print(stderr,
                "warning: a load that follows the body makes the stiffness unsymmetric; modes use its symmetric part "
@@ -134,6 +150,8 @@ void declare(ModesArguments& arguments, CommandOptions& options) {
                 "Also compute the derivative of each frequency with respect to this number of the scene, such as "
                 "materials.spruce.young.0.")
       .type("PATH");
+  options.flag("--shape-sensitivities", arguments.shape_sensitivities,
+               "Also compute the derivative of each shape with respect to each --sensitivity.");
   options.value("--out", arguments.out, "Folder for the results; default out/modes/<scene>.").type("DIR");
   options.flag("--force", arguments.force, "Replace earlier results in the folder.");
   options.flag("--picture", arguments.picture, "Also draw the shapes in modes.png, which takes some seconds.");

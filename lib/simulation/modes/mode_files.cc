@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/simulation/output/files.h"
@@ -16,7 +17,8 @@ namespace {
 
 void remove_earlier(const fs::path& folder) {
   std::error_code ec;
-  for (const char* name : {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv", "sensitivities.csv"})
+  for (const char* name :
+       {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv", "sensitivities.csv", "shape_sensitivities.csv"})
     if (!ec) fs::remove_all(folder / name, ec);
   if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", folder.string(), ec.message()));
 }
@@ -34,16 +36,19 @@ void write_csv(const fs::path& path, const ModalAnalysis& analysis) {
   }
 }
 
-// Nodal displacements of a shape, scaled to a largest displacement of 1.
-std::vector<double> nodal_shape(const Model& model, const State& about, const Vector& shape) {
-  auto moved = model.evaluate("displacement", {about.t, about.q + shape, about.v});
+// Displacements of all nodes for a small vector of unknowns.
+std::vector<double> nodal_displacements(const Model& model, const State& about, const Vector& x) {
+  auto moved = model.evaluate("displacement", {about.t, about.q + x, about.v});
   const auto before = model.evaluate("displacement", about);
-  double largest = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= before[i];
-  for (std::size_t i = 0; i < moved.size(); i += 3)
-    largest = std::max(largest, Eigen::Map<const Vec3>(&moved[i]).norm());
-  for (double& x : moved) x /= largest;
   return moved;
+}
+
+double largest_displacement(const std::vector<double>& nodal) {
+  double largest = 0;
+  for (std::size_t i = 0; i < nodal.size(); i += 3)
+    largest = std::max(largest, Eigen::Map<const Vec3>(&nodal[i]).norm());
+  return largest;
 }
 
 }  // namespace
@@ -69,16 +74,26 @@ void write_modes(const fs::path& folder, const ModalAnalysis& analysis) {
   write_shapes(folder, analysis.model(), analysis.about(), shapes);
 }
 
-void write_shapes(const fs::path& folder, const Model& model, const State& about, const std::vector<Vector>& shapes) {
+void write_shapes(const fs::path& folder, const Model& model, const State& about, const std::vector<Vector>& shapes,
+                  const std::vector<std::vector<ShapeField>>& more) {
   PvdFile collection(folder / "modes.pvd");
   collection.begin();
   const Geometry geometry = model.geometry();
   const auto displacement = model.evaluate("displacement", about);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const auto name = fmt::format("modes/mode_{:03}.vtu", k + 1);
-    write_vtu(folder / name, geometry,
-              {{"shape", Location::node, 3, nodal_shape(model, about, shapes[k])},
-               {"displacement", Location::node, 3, displacement}});
+    auto shape = nodal_displacements(model, about, shapes[k]);
+    const double largest = largest_displacement(shape);
+    const auto add = [&](std::vector<VtuField>& fields, const std::string& field, std::vector<double> nodal) {
+      for (double& x : nodal) x /= largest;
+      fields.push_back({field, Location::node, 3, std::move(nodal)});
+    };
+    std::vector<VtuField> fields;
+    add(fields, "shape", std::move(shape));
+    fields.push_back({"displacement", Location::node, 3, displacement});
+    if (!more.empty())
+      for (const ShapeField& field : more[k]) add(fields, field.name, nodal_displacements(model, about, field.values));
+    write_vtu(folder / name, geometry, fields);
     collection.add(static_cast<double>(k + 1), name);
   }
 }

@@ -10,33 +10,21 @@
 #include "lib/core/errors.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/sensitivity/changed_models.h"
+#include "lib/simulation/sensitivity/stiffness_product.h"
 
 namespace orthodyn {
 
 namespace {
 
 // Relative difference of load factors that count as equal; above the rounding errors of the stress stiffness.
-constexpr double kEqual = 1e-6;
+constexpr double kEqualFactors = 1e-6;
 
 // Number of modes from `first` on whose load factors are equal.
 std::size_t cluster_at(const BucklingModes& all, std::size_t first) {
   std::size_t end = first + 1;
   const auto factor = [&](std::size_t k) { return all.modes[k].load_factor; };
-  while (end < all.modes.size() && factor(end) - factor(end - 1) < kEqual * factor(end)) ++end;
+  while (end < all.modes.size() && factor(end) - factor(end - 1) < kEqualFactors * factor(end)) ++end;
   return end - first;
-}
-
-// K x of a structure about q, as a difference of forces. It has fewer rounding errors than a product with the matrix:
-// forces are computed from the strains of each element.
-Vector stiffness_times(const Model& structure, double t, const Vector& q, const Vector& x, double small) {
-  const double largest = x.lpNorm<Eigen::Infinity>();
-  if (largest == 0) return Vector::Zero(x.size());
-  const double h = small / largest;
-  const Vector still = Vector::Zero(x.size());
-  Vector before(x.size()), after(x.size());
-  structure.force(t, q - h * x, still, before);
-  structure.force(t, q + h * x, still, after);
-  return (before - after) / (2 * h);
 }
 
 // The state before buckling as a function of the parameter, linear in its change.

@@ -124,16 +124,21 @@ void declare_scene_model(py::module_& m) {
            })
       .def("mass", [](const SceneModel& s) { return array_of(s.mass()); })
       .def("modes",
-           [](const SceneModel& s, int count, bool about_equilibrium) {
+           [](const SceneModel& s, int count, bool about_equilibrium, const std::vector<std::string>& parameters,
+              bool of_shapes) {
              SceneModel::FoundModes found;
              {
                const py::gil_scoped_release unlocked;
-               found = s.modes(count, about_equilibrium);
+               found = s.modes(count, about_equilibrium, parameters, of_shapes);
              }
              const auto k = static_cast<py::ssize_t>(found.frequencies.size());
+             py::list frequency_slopes, shape_slopes;
+             for (auto& slopes : found.frequency_slopes) frequency_slopes.append(array_of(std::move(slopes)));
+             for (auto& slopes : found.shape_slopes)
+               shape_slopes.append(array_of(std::move(slopes), {k, s.model().num_dofs()}));
              return py::make_tuple(array_of(std::move(found.frequencies)),
                                    array_of(std::move(found.shapes), {k, s.model().num_dofs()}),
-                                   array_of(std::move(found.mesh_errors)));
+                                   array_of(std::move(found.mesh_errors)), frequency_slopes, shape_slopes);
            })
       .def("unknowns",
            [](const SceneModel& s) {

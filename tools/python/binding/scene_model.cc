@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <utility>
+
 #include "lib/simulation/modes/modal_analysis.h"
+#include "lib/simulation/sensitivity/frequency_sensitivity.h"
+#include "lib/simulation/sensitivity/shape_sensitivity.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn::python {
@@ -71,12 +76,27 @@ std::vector<double> SceneModel::evaluate(const std::string& name, double t, cons
   return model().evaluate(name, {t, q, v});
 }
 
-SceneModel::FoundModes SceneModel::modes(int count, bool about_equilibrium) const {
+SceneModel::FoundModes SceneModel::modes(int count, bool about_equilibrium, const std::vector<std::string>& paths,
+                                         bool of_shapes) const {
+  const auto parameters = scene_parameters(setup_.config, paths);
   const ModalAnalysis analysis(setup_, count, about_equilibrium);
-  FoundModes found{{}, {}, analysis.mesh_errors()};
+  FoundModes found{{}, {}, analysis.mesh_errors(), {}, {}};
   for (const Mode& mode : analysis.modes().modes) {
     found.frequencies.push_back(mode.frequency());
     found.shapes.insert(found.shapes.end(), mode.shape.data(), mode.shape.data() + mode.shape.size());
+  }
+  for (FrequencySensitivity& one : frequency_sensitivities(setup_.config, analysis, parameters))
+    found.frequency_slopes.push_back(std::move(one.derivatives));
+  if (!of_shapes) return found;
+  const auto shapes =
+      shape_sensitivities(setup_.config, analysis.model(), analysis.about(), analysis.modes(), parameters);
+  for (const ShapeSensitivity& one : shapes.by_parameter) {
+    auto& rows = found.shape_slopes.emplace_back();
+    for (const Vector& row : one.derivatives) {
+      rows.insert(rows.end(), row.data(), row.data() + row.size());
+      rows.resize(rows.size() + static_cast<std::size_t>(model().num_dofs() - row.size()),
+                  std::numeric_limits<double>::quiet_NaN());
+    }
   }
   return found;
 }

@@ -38,11 +38,13 @@ class SceneModel {
   std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q,
                                const ConstVectorRef& v) const;
 
-  // Frequencies in Hz; shapes (count x n), M-orthonormal; relative mesh errors.
+  // Frequencies in Hz; shapes (count x n), M-orthonormal; relative mesh errors. By parameter: derivatives of the
+  // frequencies and, if wanted, of the shapes, NaN where there are none.
   struct FoundModes {
     std::vector<double> frequencies, shapes, mesh_errors;
+    std::vector<std::vector<double>> frequency_slopes, shape_slopes;
   };
-  FoundModes modes(int count, bool about_equilibrium) const;
+  FoundModes modes(int count, bool about_equilibrium, const std::vector<std::string>& parameters, bool of_shapes) const;
   // Displacements (m) of the free coordinates in static equilibrium under the loads at the end of the scene's time.
   Vector equilibrium() const;
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,16 +11,21 @@ from . import _core
 from .draw.digits import known_digits
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import scipy.sparse
 
 
 @dataclass(frozen=True, repr=False)
 class Modes:
     """Natural modes: `frequencies` (k,), Hz; `shapes` (k, n) on the free coordinates, M-orthonormal; `mesh_errors` (k,), the
-    estimated relative excess of each frequency due to the mesh, 0 for rigid modes."""
+    estimated relative excess of each frequency due to the mesh, 0 for rigid modes. By path of the parameter, per its SI unit,
+    with NaN where there is no derivative: `frequency_sensitivities` (k,) and `shape_sensitivities` (k, n)."""
     frequencies: np.ndarray
     shapes: np.ndarray
     mesh_errors: np.ndarray
+    frequency_sensitivities: dict[str, np.ndarray] = field(default_factory=dict)
+    shape_sensitivities: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         """Frequencies with the digits justified by the mesh errors."""
@@ -92,11 +97,20 @@ class Model:
         """M^-1 f, m/s^2."""
         return self._core.solve_mass(self.force(t, q, v))
 
-    def modes(self, count: int, *, about_equilibrium: bool = False) -> Modes:
-        """The lowest `count` natural modes including rigid ones, about the rest shape or about the static equilibrium."""
+    def modes(self, count: int, *, about_equilibrium: bool = False, sensitivities: Sequence[str] = (),
+              shape_sensitivities: bool = False) -> Modes:
+        """The lowest `count` natural modes including rigid ones, about the rest shape or about the static equilibrium.
+        `sensitivities`: paths of numbers of the scene ("materials.wood.young.0") for derivatives of the frequencies about the
+        rest shape and, with `shape_sensitivities`, of the shapes. Shapes of equal frequencies and rigid ones have none."""
         if count < 1:
             raise ValueError(f"count: {count}, expected at least 1")
-        return Modes(*self._core.modes(count, about_equilibrium))
+        paths = [sensitivities] if isinstance(sensitivities, str) else list(sensitivities)
+        if about_equilibrium and paths:
+            raise ValueError("sensitivities: available for modes about rest only, without about_equilibrium")
+        if shape_sensitivities and not paths:
+            raise ValueError("shape_sensitivities: need a number of the scene, sensitivities=[path]")
+        *found, frequencies, shapes = self._core.modes(count, about_equilibrium, paths, shape_sensitivities)
+        return Modes(*found, dict(zip(paths, frequencies)), dict(zip(paths, shapes)))
 
     def equilibrium(self) -> np.ndarray:
         """Static q under the loads at the end of the scene's time. Raises ConfigError for an unsupported body, RunError if no
