@@ -105,6 +105,16 @@ class OfAFit(OfAComparison):
         self.assertIn("<strong>−0.5</strong>", text)
         self.assertNotIn("<strong>+0.012</strong>", text)
 
+    def test_modes_matched_by_shape_have_their_number_and_mac(self):
+        _, page = self.page_of(data=[datum("plate", "frequency 1", 89.5, 0.2, mode=1, mac=0.996),
+                                     datum("plate", "frequency 2", 91.5, 0.1, mode=3, mac=0.5)])
+        self.assertEqual([row[-2:] for row in self.table(page, "Datum")],
+                         [["Computed mode", "MAC"], ["1", "1.00"], ["3", "0.50"]])
+
+    def test_modes_of_their_own_number_need_no_column(self):
+        _, page = self.page_of(data=[datum("plate", "frequency of mode 2", 89.5, 0.2, mode=2, mac=None)])
+        self.assertEqual(self.table(page, "Datum")[0][-1], "Residual / deviation")
+
     def test_a_prior_is_shown(self):
         _, page = self.page_of(parameters=[parameter("E1", 11.0, 0.17, prior={"value": 10.0, "deviation": 1.5}),
                                            fit()["parameters"][1]])

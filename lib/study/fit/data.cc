@@ -4,50 +4,33 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "lib/config/csv_table.h"
 #include "lib/core/spelling.h"
-#include "lib/core/units.h"
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
 #include "lib/simulation/harmonic/response_columns.h"
 #include "lib/simulation/sensitivity/motion_sensitivity.h"
+#include "lib/study/fit/headings.h"
+#include "lib/study/fit/measured_shapes.h"
 
 namespace orthodyn::study::fit {
 
 namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-
-// "mm" of "z [mm]"; "" without brackets.
-std::string unit_in(const std::string& heading) {
-  const auto open = heading.rfind('['), close = heading.rfind(']');
-  if (open == std::string::npos || close == std::string::npos || close < open) return "";
-  return heading.substr(open + 1, close - open - 1);
-}
-
-// Factor from `unit` to `si`; 1 for "".
-double factor_of(const std::string& unit, const std::string& si, const SourceLocation& origin) {
-  if (unit.empty()) return 1;
-  try {
-    check_dimension(unit, si);
-    return si_factor(unit);
-  } catch (const std::invalid_argument& e) {
-    origin.fail(fmt::format("unit '{}': {}", unit, e.what()));
-  }
-}
+constexpr double kBand = 0.2;  // default of `band`
 
 class Reader {
  public:
   explicit Reader(const Config& config) : config_(config), scene_(read_scene(config)), built_(build(scene_)) {}
 
-  std::vector<Datum> read(const Experiment& experiment) {
+  Data read(const Experiment& experiment) {
     for (std::size_t i = 0; i < experiment.measured.size(); ++i) {
       entry_ = i;
       add(experiment.measured[i]);
     }
-    return std::move(data_);
+    return {std::move(data_), std::move(matchings_)};
   }
 
  private:
@@ -58,6 +41,8 @@ class Reader {
   }
 
   void add_frequencies(const Measurement& m) {
+    const bool is_matched = m.match_by() != MatchBy::order;
+    ModeMatching matching{std::vector<double>(m.frequencies.size(), kNotANumber), m.band.value_or(kBand), {}, {}, {}};
     double before = 0;
     for (std::size_t k = 0; k < m.frequencies.size(); ++k) {
       const Config given = parsed(m.frequencies[k]);
@@ -69,21 +54,26 @@ class Reader {
         m.origin.fail(fmt::format("frequencies: number {}: {}", k + 1, e.what()));
       }
       if (value < before) m.origin.fail(fmt::format("frequencies: number {} is below the one before it", k + 1));
-      before = value;
-      add_frequency(m, static_cast<int>(k) + 1, value);
+      before = matching.frequencies[k] = value;
+      add_frequency(m, static_cast<int>(k) + 1, value, is_matched);
     }
+    if (before == 0) m.origin.fail("frequencies: none was measured, all are null");
+    if (m.shapes) read_shapes(m, *built_.model, matching);
+    if (is_matched) matchings_.push_back(std::move(matching));
   }
 
-  void add_frequency(const Measurement& m, int mode, double value) {
+  // `is_matched`: `mode` is the number of the frequency in the next entry of `matchings_`.
+  void add_frequency(const Measurement& m, int mode, double value, bool is_matched) {
     WantedMetric metric{.mode = mode};
-    push(m, metric, fmt::format("frequency of mode {}", mode), value, "Hz", "Hz");
+    if (is_matched) metric.matching = static_cast<int>(matchings_.size());
+    push(m, metric, fmt::format("frequency {}{}", is_matched ? "" : "of mode ", mode), value, "Hz", "Hz");
     data_.back().has_derivatives = true;
   }
 
   void add_value(const Measurement& m) {
     if (m.mode) {
       if (m.value) m.value->require("Hz", m.origin);
-      return add_frequency(m, *m.mode, m.value ? m.value->si() : kNotANumber);
+      return add_frequency(m, *m.mode, m.value ? m.value->si() : kNotANumber, false);
     }
     const WantedMetric metric = metric_of(m, m.at, m.frequency);
     const std::string si = si_unit(metric);
@@ -179,12 +169,11 @@ class Reader {
   BuiltScene built_;
   std::size_t entry_ = 0;
   std::vector<Datum> data_;
+  std::vector<ModeMatching> matchings_;
 };
 
 }  // namespace
 
-std::vector<Datum> data_of(const Experiment& experiment, const Config& config) {
-  return Reader(config).read(experiment);
-}
+Data data_of(const Experiment& experiment, const Config& config) { return Reader(config).read(experiment); }
 
 }  // namespace orthodyn::study::fit

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/study/fit/fit.h"
+#include "lib/study/quantities/mode_matching.h"
 
 namespace orthodyn::study::fit {
 
@@ -26,7 +27,13 @@ struct Datum {
   double deviation_at(double computed) const { return relative ? *relative * std::abs(computed) : deviation; }
 };
 
+// The data of an experiment, and the lists of measured modes that Datum::metric refers to.
+struct Data {
+  std::vector<Datum> data;
+  std::vector<ModeMatching> matchings;
+};
+
 // Reads the tables, and checks quantities, units and times against `config`, the resolved scene. Throws ConfigError.
-std::vector<Datum> data_of(const Experiment& experiment, const Config& config);
+Data data_of(const Experiment& experiment, const Config& config);
 
 }  // namespace orthodyn::study::fit

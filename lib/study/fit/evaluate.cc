@@ -26,6 +26,12 @@ const T& value_of(const Named<T>& list, const std::string& name) {
   return found->second;
 }
 
+std::optional<ModeMatch> match_of(const EvaluationResult& result, const std::string& metric) {
+  for (const auto& [name, match] : result.matches)
+    if (name == metric) return match;
+  return {};
+}
+
 // Lets a motion be integrated ten times as accurately, or with half of the fixed step.
 void refine_steps(Config& scene) {
   const Scene read = read_scene(scene.resolving());
@@ -89,6 +95,7 @@ class Plan {
     }
     read_scene(scene);  // fills in the defaults
     EvaluationInput input;
+    input.matchings = experiment.matchings;
     input.seconds = problem_.limits().seconds, input.code = code_fingerprint();
     for (std::size_t d = 0; d < experiment.data.size(); ++d)
       input.metrics.emplace_back(metric_name(d), experiment.data[d].metric);
@@ -114,6 +121,9 @@ class Plan {
       for (std::size_t d = 0; d < experiment.data.size(); ++d) {
         const std::string name = metric_name(d);
         out.computed.push_back(value_of(results[begin].metrics, name));
+        out.matches.push_back(match_of(results[begin], name));
+        if (out.matches.back() && !out.matches.back()->failure.empty())
+          throw Failed(fmt::format("{}: {}", experiment.name, out.matches.back()->failure));
         if (!std::isfinite(out.computed.back()))
           throw Failed(fmt::format("{}: there is no {}", experiment.name, experiment.data[d].title));
         if (!with_derivatives_) continue;

@@ -26,6 +26,26 @@ namespace orthodyn::study::fit {
 
 namespace {
 
+// Keys of natural frequencies: how they are matched with computed modes.
+void check_matching(const Measurement& m, const Config& config) {
+  const auto require = [&](bool is_right, bool is_given, const char* key, const char* reason) {
+    if (is_given && !is_right) config.at(key).fail(std::string("is not used ") + reason + "; remove it");
+  };
+  const bool has_list = !m.frequencies.empty();
+  const char* const only = "without 'frequencies': a single 'mode' is matched by its number";
+  require(has_list, m.match.has_value(), "match", only);
+  require(has_list, m.shapes.has_value(), "shapes", only);
+  require(m.shapes.has_value(), m.direction.has_value(), "direction", "without 'shapes'");
+  require(m.match_by() == MatchBy::nearest, m.band.has_value(), "band", "without 'match: nearest'");
+  if (m.shapes && m.match_by() != MatchBy::shape)
+    config.at("match").fail("'shapes' match modes by shape; remove 'match', or remove 'shapes'");
+  if (m.match_by() == MatchBy::shape && !m.shapes)
+    config.at("match").fail("matching by shape needs 'shapes', a CSV file with measured amplitudes");
+  if (m.shapes && !m.direction)
+    config.fail("key 'direction' is missing: the direction along which 'shapes' are measured, such as [0, 0, 1]");
+  if (m.direction && !(m.direction->norm() > 0)) config.at("direction").fail("is zero; give a direction");
+}
+
 void check_measurement(const Measurement& m, const Config& config) {
   const int kinds = !m.quantity.empty() + m.mode.has_value() + !m.frequencies.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode, frequencies");
@@ -45,6 +65,7 @@ void check_measurement(const Measurement& m, const Config& config) {
     refuse(m.frequency.has_value(), "frequency", "for natural frequencies");
   }
   if (m.mode) refuse(m.table.has_value(), "table", "for one natural frequency");
+  check_matching(m, config);
   if (m.table) {
     refuse(m.value.has_value(), "value", "with 'table', which has the values");
     refuse(m.at.has_value(), "at", "with 'table', whose column 'over' has the times");
@@ -91,6 +112,20 @@ const Spec<Measurement>& Measurement::spec() {
           .key("frequencies", &Measurement::frequencies,
                "The lowest natural frequencies in ascending order, without rigid modes: [51.2 Hz, 80 Hz]; null for one "
                "that was not measured.")
+          .key("match", &Measurement::match,
+               "How `frequencies` find their computed modes. order: by number. nearest: the nearest frequencies in "
+               "ascending order within `band`; computed modes may be left out, for lists that lack a mode. shape: by "
+               "`shapes`. Default: shape if there are shapes, else order.")
+          .key("band", &Measurement::band,
+               "Of `match: nearest`: largest relative difference between a measured and its computed frequency; "
+               "default 0.2.",
+               {.range = {0, 1, true, true}})
+          .key("shapes", &Measurement::shapes,
+               "CSV file with measured shapes: columns x, y and z of the points in the rest shape, with a unit as in x "
+               "[mm], and for each of `frequencies` a column (mode 1, mode 2, ...) with the amplitude along "
+               "`direction`, in any unit and with its sign. Empty entries are amplitudes that were not measured.")
+          .key("direction", &Measurement::direction,
+               "Direction along which all amplitudes of `shapes` were measured, such as [0, 0, 1]; of any length.")
           .key("at", &Measurement::at, "Time of the measured value; default the end.", {.unit = "s"})
           .key("response", &Measurement::response, kResponseSentence)
           .key("frequency", &Measurement::frequency, kFrequencySentence, {.unit = "Hz", .range = kPositive})

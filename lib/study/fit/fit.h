@@ -13,12 +13,19 @@
 
 namespace orthodyn::study::fit {
 
+// How measured frequencies find their computed modes: by number, by the nearest frequency, or by shape.
+enum class MatchBy { order, nearest, shape };
+
 // An entry of `measured`: one value, the lowest natural frequencies, or a table of values over time or frequency.
 // Exactly one of `quantity`, `mode` and `frequencies` is set.
 struct Measurement {
   std::string quantity;                    // "tip.displacement.z"
   std::optional<int> mode;                 // number from 1, without rigid modes
   std::vector<YamlText> frequencies;       // of modes 1, 2, ...; null for one that was not measured
+  std::optional<MatchBy> match;            // of `frequencies`; see match_by()
+  std::optional<double> band;              // of MatchBy::nearest, relative
+  std::optional<FilePath> shapes;          // CSV: amplitudes of the modes of `frequencies`
+  std::optional<Vec3> direction;           // along which `shapes` are measured
   std::optional<double> at;                // time of `value`, s
   std::optional<ResponseMetric> response;  // in a harmonic analysis
   std::optional<double> frequency;         // of the response, Hz
@@ -30,6 +37,9 @@ struct Measurement {
   std::optional<double> relative;          // standard deviation relative to the value
   SourceLocation origin;
   static const Spec<Measurement>& spec();
+
+  // `match`, or its default: by shape if there are shapes, else by order.
+  MatchBy match_by() const { return match.value_or(shapes ? MatchBy::shape : MatchBy::order); }
 };
 
 struct Experiment {
@@ -82,6 +92,13 @@ Fit read_fit(const Config& config);
 }  // namespace orthodyn::study::fit
 
 namespace orthodyn {
+
+template <>
+struct EnumNames<study::fit::MatchBy> {
+  using MatchBy = study::fit::MatchBy;
+  static constexpr std::array<std::pair<MatchBy, const char*>, 3> list{
+      {{MatchBy::order, "order"}, {MatchBy::nearest, "nearest"}, {MatchBy::shape, "shape"}}};
+};
 
 template <>
 struct EnumNames<study::fit::Loss> {

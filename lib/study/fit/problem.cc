@@ -82,7 +82,8 @@ void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates)
     const bool has_motion = std::any_of(experiment.measured.begin(), experiment.measured.end(), is_of_motion);
     if (!has_motion && scene.is_map() && !scene.has("time") && !scene.has("analysis"))
       scene.set("time.end", 1.0);  // needed, but without effect
-    experiments_.push_back({name, scene, data_of(experiment, scene.resolving()), {}, are_candidates});
+    Data data = data_of(experiment, scene.resolving());
+    experiments_.push_back({name, scene, std::move(data.data), std::move(data.matchings), {}, are_candidates});
   }
 }
 

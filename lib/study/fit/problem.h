@@ -32,6 +32,7 @@ struct PreparedExperiment {
   std::string name;
   Config scene;  // resolved
   std::vector<Datum> data;
+  std::vector<ModeMatching> matchings;          // of Datum::metric
   std::vector<std::vector<std::string>> paths;  // by parameter: those that the scene has
   bool is_candidate = false;
 
@@ -41,8 +42,9 @@ struct PreparedExperiment {
 
 // Data of one evaluation, in the order of the data of all experiments in question.
 struct Evaluation {
-  std::vector<double> computed;                // SI
-  std::optional<Eigen::MatrixXd> derivatives;  // d computed / d z
+  std::vector<double> computed;                   // SI
+  std::vector<std::optional<ModeMatch>> matches;  // the computed modes of measured ones; empty for other data
+  std::optional<Eigen::MatrixXd> derivatives;     // d computed / d z
 };
 
 // A selection of experiments.

@@ -8,6 +8,7 @@
 #include "lib/core/number_format.h"
 #include "lib/core/spelling.h"
 #include "lib/core/versions.h"
+#include "lib/study/fit/mode_sentences.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study::fit {
@@ -94,6 +95,8 @@ Json data_json(const Problem& problem, const Search& search) {
     if (experiment.is_candidate) continue;
     for (const Datum& datum : experiment.data) {
       const double computed = search.at.computed[i];
+      const auto &match = search.at.matches[i], &first = search.matches_at_start[i];
+      const auto by_number = optional_json(datum.metric.mode);
       out.push_back(
           {{"experiment", experiment.name},
            {"entry", datum.entry},
@@ -105,7 +108,10 @@ Json data_json(const Problem& problem, const Search& search) {
            {"deviation", datum.deviation / datum.factor},
            {"computed", finite_or_null(computed / datum.factor)},
            {"computed_at_start", finite_or_null(search.computed_at_start[static_cast<Eigen::Index>(i)] / datum.factor)},
-           {"residual", finite_or_null((computed - datum.value) / datum.deviation)}});
+           {"residual", finite_or_null((computed - datum.value) / datum.deviation)},
+           {"mode", match ? Json(match->mode) : by_number},
+           {"mode_at_start", first ? Json(first->mode) : by_number},
+           {"mac", match ? finite_or_null(match->mac) : Json()}});
       ++i;
     }
   }
@@ -154,28 +160,6 @@ Json candidates_json(const Problem& problem, const Result& result) {
   return out;
 }
 
-// Warnings about measured modes whose computed frequencies are nearly equal: they are matched by their order, which may
-// be that of other shapes.
-std::vector<std::string> close_modes(const Problem& problem, const Evaluation& at) {
-  std::vector<std::string> out;
-  std::size_t first = 0;
-  for (const PreparedExperiment& experiment : problem.experiments()) {
-    if (experiment.is_candidate) continue;
-    for (std::size_t i = 0; i + 1 < experiment.data.size(); ++i) {
-      const Datum &lower = experiment.data[i], &upper = experiment.data[i + 1];
-      if (!lower.metric.mode || !upper.metric.mode || *upper.metric.mode != *lower.metric.mode + 1) continue;
-      const double gap = at.computed[first + i + 1] - at.computed[first + i];
-      if (gap > lower.deviation + upper.deviation) continue;
-      out.push_back(fmt::format(
-          "{}: the computed frequencies of modes {} and {} differ by less than their deviations. Modes are matched by "
-          "their order, so the search can end at a crossing of two modes: try another start or starts: 10",
-          experiment.name, *lower.metric.mode, *upper.metric.mode));
-    }
-    first += experiment.data.size();
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::string> findings(const Problem& problem, const Result& result) {
@@ -214,15 +198,12 @@ std::vector<std::string> findings(const Problem& problem, const Result& result) 
         fmt::format("Of the candidates, '{}' would tell most: the volume of the confidence region shrinks by a "
                     "factor {:.3g}.",
                     best->name, best->determinant_gain));
+  for (std::string& sentence : matched_modes(problem, result.search())) out.push_back(std::move(sentence));
   return out;
 }
 
-bool measures_modes(const Problem& problem) {
-  return std::ranges::any_of(problem.data(), [](const Datum* datum) { return datum->metric.mode.has_value(); });
-}
-
 std::vector<std::string> warnings(const Problem& problem, const Result& result) {
-  std::vector<std::string> out = close_modes(problem, result.search().at);
+  std::vector<std::string> out = doubtful_modes(problem, result.search().at);
   const Search& search = result.search();
   const NoiseTest& noise = result.statistics.noise;
   if (!search.converged)
@@ -233,8 +214,9 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
         "the residuals are {:.2g} times as large as the stated deviations: the model or the deviations are "
         "wrong{}{}. The intervals are enlarged by this factor",
         noise.factor, result.attempts.size() == 1 ? ", or a better result is far from the start (try starts: 10)" : "",
-        measures_modes(problem) ? ", or computed modes, which are matched by their order, belong to other measured ones"
-                                : ""));
+        has_modes_by_order(problem)
+            ? ", or computed modes, which are matched by their order, belong to other measured ones (give 'shapes')"
+            : ""));
   // Residuals far below the deviations do not matter, also if they are no noise.
   constexpr double kNegligible = 0.1;
   const bool matters = noise.chi_square > kNegligible * static_cast<double>(noise.freedom);
@@ -311,10 +293,11 @@ std::string parameters_csv(const Json& table) {
 }
 
 std::string data_csv(const Json& table) {
-  std::string out = "experiment,datum,unit,over,measured,deviation,computed,residual\n";
+  std::string out = "experiment,datum,unit,over,measured,deviation,computed,residual,mode,mac\n";
   for (const Json& d : table.at("data")) {
     std::string row;
-    for (const char* key : {"experiment", "title", "unit", "over", "measured", "deviation", "computed", "residual"})
+    for (const char* key :
+         {"experiment", "title", "unit", "over", "measured", "deviation", "computed", "residual", "mode", "mac"})
       row += (row.empty() ? "" : ",") + csv_cell(d.at(key));
     out += row + "\n";
   }

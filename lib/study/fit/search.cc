@@ -130,8 +130,7 @@ class SharedEvaluation : public ceres::EvaluationCallback {
     try {
       evaluation_ = evaluate(problem_, z_, with_derivatives, options_);
       residuals_ = residuals_of(problem_, z_, evaluation_);
-      if (first_.size() == 0)
-        first_ = Eigen::Map<const Vector>(evaluation_.computed.data(), std::ssize(evaluation_.computed));
+      if (first_.computed.empty()) first_ = evaluation_;
       succeeded_ = true;
     } catch (const Failed& e) {
       ++failed;
@@ -147,7 +146,7 @@ class SharedEvaluation : public ceres::EvaluationCallback {
   const std::string& failure() const { return failure_; }
   const Residuals& residuals() const { return residuals_; }
   const Evaluation& evaluation() const { return evaluation_; }
-  const Vector& first() const { return first_; }
+  const Evaluation& first() const { return first_; }
   bool must_end() const { return pending_ != nullptr; }
   void rethrow() const {
     if (pending_) std::rethrow_exception(pending_);
@@ -158,8 +157,8 @@ class SharedEvaluation : public ceres::EvaluationCallback {
   const Problem& problem_;
   const JobOptions& options_;
   Vector& z_;  // changed by Ceres
-  Vector at_, first_;
-  Evaluation evaluation_;
+  Vector at_;
+  Evaluation first_, evaluation_;
   Residuals residuals_;
   bool succeeded_ = false;
   std::string failure_;
@@ -303,7 +302,8 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   out.message = has_settled ? "further steps change chi-square by less than 1e-4 of it" : summary.message;
   out.cost = summary.final_cost;
   out.at = shared.evaluation();
-  out.computed_at_start = shared.first();
+  out.computed_at_start = Eigen::Map<const Vector>(shared.first().computed.data(), std::ssize(shared.first().computed));
+  out.matches_at_start = shared.first().matches;
   out.evaluations = shared.evaluations, out.failed_evaluations = shared.failed;
   return out;
 }

@@ -40,6 +40,7 @@ struct Search {
   double cost = 0;           // minimised: half the sum of squared residuals, with the loss
   Evaluation at;             // at the end, with derivatives
   Vector computed_at_start;  // data at the start, SI
+  std::vector<std::optional<ModeMatch>> matches_at_start;
   std::vector<Iteration> iterations;
   std::size_t evaluations = 0, failed_evaluations = 0;
 };

@@ -138,10 +138,13 @@ class Evaluation {
     const Vector zero = Vector::Zero(built.model->num_dofs());
     const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero,
                       about_equilibrium ? 1.0 : 0.0};
-    const WantedModes found = wanted_modes(wanted, *built.model, about);
-    for (std::size_t k = 0; k < names.size(); ++k)
+    const auto& matchings = about_equilibrium ? std::vector<ModeMatching>{} : input_.matchings;
+    const WantedModes found = wanted_modes(wanted, *built.model, about, matchings);
+    for (std::size_t k = 0; k < names.size(); ++k) {
       keep(names[k], found.chosen[k] ? found.modes.modes[*found.chosen[k]].frequency() : std::nan(""),
            wanted[k].unit_of(""));
+      if (found.matches[k]) result_.matches.emplace_back(names[k], *found.matches[k]);
+    }
     if (!about_equilibrium) find_derivatives(names, found, *built.model, about);
     if (!input_.mesh_error || found.modes.modes.empty()) return;
     const Stopwatch watch;

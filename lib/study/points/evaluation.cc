@@ -16,10 +16,25 @@ const JsonFields<WantedMetric> json_fields<WantedMetric>{{"quantity", &WantedMet
                                                          {"response", &WantedMetric::response, Empty::null},
                                                          {"frequency", &WantedMetric::frequency, Empty::null},
                                                          {"mode", &WantedMetric::mode, Empty::null},
+                                                         {"matching", &WantedMetric::matching},
                                                          {"along", &WantedMetric::along, Empty::null},
                                                          {"buckling", &WantedMetric::buckling, Empty::null},
                                                          {"about_equilibrium", &WantedMetric::about_equilibrium},
                                                          {"cost", &WantedMetric::cost}};
+
+template <>
+const JsonFields<ModeMatching> json_fields<ModeMatching>{{"frequencies", &ModeMatching::frequencies},
+                                                         {"band", &ModeMatching::band},
+                                                         {"points", &ModeMatching::points},
+                                                         {"direction", &ModeMatching::direction},
+                                                         {"shapes", &ModeMatching::shapes}};
+
+template <>
+const JsonFields<ModeMatch> json_fields<ModeMatch>{{"mode", &ModeMatch::mode},
+                                                   {"mac", &ModeMatch::mac},
+                                                   {"next", &ModeMatch::next},
+                                                   {"next_mac", &ModeMatch::next_mac},
+                                                   {"failure", &ModeMatch::failure, Empty::omitted}};
 
 template <>
 const JsonFields<EvaluationInput> json_fields<EvaluationInput>{
@@ -29,7 +44,8 @@ const JsonFields<EvaluationInput> json_fields<EvaluationInput>{
     {"seconds", &EvaluationInput::seconds},
     {"code", &EvaluationInput::code},
     {"mesh_error", &EvaluationInput::mesh_error, Empty::omitted},
-    {"parameters", &EvaluationInput::parameters, Empty::omitted}};
+    {"parameters", &EvaluationInput::parameters, Empty::omitted},
+    {"matchings", &EvaluationInput::matchings, Empty::omitted}};
 
 template <>
 const JsonFields<EvaluationCost> json_fields<EvaluationCost> = [] {
@@ -54,6 +70,7 @@ const JsonFields<EvaluationResult> json_fields<EvaluationResult>{
     {"mesh_error", &EvaluationResult::mesh_error},
     {"metric_errors", &EvaluationResult::metric_errors, Empty::omitted},
     {"derivatives", &EvaluationResult::derivatives, Empty::omitted},
+    {"matches", &EvaluationResult::matches, Empty::omitted},
     {"kinematics", &EvaluationResult::kinematics, Empty::omitted},
     {"warnings", &EvaluationResult::warnings, Empty::omitted}};
 

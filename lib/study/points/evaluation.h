@@ -12,6 +12,7 @@
 #include "lib/core/ranks.h"
 #include "lib/study/jobs/job_result.h"
 #include "lib/study/quantities/evaluation_cost.h"
+#include "lib/study/quantities/mode_matching.h"
 #include "lib/study/quantities/wanted_metric.h"
 
 namespace orthodyn::study {
@@ -24,6 +25,7 @@ struct EvaluationInput {
   std::string code;                          // fingerprint of the program that must do the work
   bool mesh_error = false;                   // also estimate the mesh error
   std::vector<std::string> parameters = {};  // numbers of the scene for derivatives of the metrics, by path
+  std::vector<ModeMatching> matchings = {};  // of WantedMetric::matching, about rest
 };
 
 // Title, unit, closed form and scale of a metric are left out, because they do not affect the computation.
@@ -48,7 +50,8 @@ struct EvaluationResult {
   // By metric: its derivative with respect to each of the input's parameters, in SI units. Quantities in equilibrium,
   // natural frequencies about rest and critical load factors have derivatives.
   Named<std::vector<double>> derivatives;
-  std::string kinematics;  // choice made for `kinematics: auto` and its reason; "" for other kinematics
+  Named<ModeMatch> matches;  // by metric with WantedMetric::matching
+  std::string kinematics;    // choice made for `kinematics: auto` and its reason; "" for other kinematics
   std::vector<std::string> warnings;
 };
 

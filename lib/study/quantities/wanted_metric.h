@@ -27,6 +27,9 @@ struct WantedMetric {
   std::optional<ResponseMetric> response = {};  // in a harmonic analysis, instead of `take`
   std::optional<double> frequency = {};         // of the response, Hz
   std::optional<int> mode = {};
+  // Of a study: index of the ModeMatching that says which computed mode `mode` is; `mode` is then the number of the
+  // measured frequency, from 1.
+  std::optional<int> matching = {};
   std::optional<Component> along = {};  // instead of `mode`: the mode with the largest effective mass along this axis
   bool about_equilibrium = false;
   std::optional<int> buckling = {};

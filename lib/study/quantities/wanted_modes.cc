@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/fem_model.h"
+
 namespace orthodyn {
 
 namespace {
@@ -34,15 +36,37 @@ std::optional<std::size_t> index_of(const WantedMetric& m, const Modes& modes) {
   return found == last ? std::nullopt : std::optional(number(found));
 }
 
+// As many modes as the metrics and the matchings need.
+Modes needed_modes(const std::vector<WantedMetric>& metrics, const FemModel& model, const State& about,
+                   const std::vector<ModeMatching>& matchings) {
+  int count = 1;
+  double frequency = 0;
+  for (const auto& m : metrics)
+    if (!m.matching) count = std::max(count, m.along ? kSearchedModes : m.mode.value_or(1));
+  for (const ModeMatching& matching : matchings) {
+    if (matching.is_by_shape()) count = std::max(count, matching.searched());
+    else frequency = std::max(frequency, matching.highest());
+  }
+  Modes modes = elastic_modes(model, about, count);
+  const bool has_all = std::ssize(modes.modes) == about.q.size();
+  return has_all || modes.modes.back().frequency() > frequency ? modes : natural_modes_below(model, about, frequency);
+}
+
 }  // namespace
 
-WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const Model& model, const State& about) {
-  int count = 1;
-  for (const auto& m : metrics) count = std::max(count, m.along ? kSearchedModes : m.mode.value_or(1));
-  WantedModes out{elastic_modes(model, about, count), {}};
+WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const FemModel& model, const State& about,
+                         const std::vector<ModeMatching>& matchings) {
+  WantedModes out{needed_modes(metrics, model, about, matchings), {}, {}};
+  std::vector<std::vector<ModeMatch>> matches;
+  for (const ModeMatching& matching : matchings) matches.push_back(match_modes(matching, out.modes, model, about));
+  const auto zeros = static_cast<std::size_t>(out.modes.zeros);
   std::size_t highest = 0;
   for (const auto& m : metrics) {
-    out.chosen.push_back(index_of(m, out.modes));
+    auto& match = out.matches.emplace_back();
+    if (m.matching) match = matches.at(static_cast<std::size_t>(*m.matching)).at(static_cast<std::size_t>(*m.mode - 1));
+    if (!match) out.chosen.push_back(index_of(m, out.modes));
+    else if (match->mode == 0) out.chosen.push_back(std::nullopt);
+    else out.chosen.push_back(zeros + static_cast<std::size_t>(match->mode) - 1);
     if (out.chosen.back()) highest = std::max(highest, *out.chosen.back() + 1);
   }
   out.modes.modes.resize(highest);

@@ -32,17 +32,30 @@ def _residual(datum):
         datum.residual) else formatting.UNKNOWN
 
 
-def _row(datum):
+def _mode(datum):
+    return str(int(datum.mode)) if math.isfinite(datum.mode) else ""
+
+
+def _mac(datum):
+    return f"{datum.mac:.2f}" if math.isfinite(datum.mac) else ""
+
+
+def _row(datum, with_mode, with_mac):
     measured, deviation, computed, unit = _texts(datum)
     far = abs(datum.residual) > BAND
+    modes = [number(_mode(datum))] * with_mode + [number(_mac(datum))] * with_mac
     return tag("tr", tag("th", datum.title, scope="row"), number(measured), number(deviation), number(computed),
-               tag("td", unit or "", class_="word"), number(tag("strong", _residual(datum)) if far else _residual(datum)))
+               tag("td", unit or "", class_="word"), number(tag("strong", _residual(datum)) if far else _residual(datum)),
+               *modes)
 
 
 def _single_table(experiment, data):
-    head = (("Datum", False), ("Measured", True), ("Deviation", True), ("Computed", True), ("Unit", False),
-            ("Residual / deviation", True))
-    return table(f"Single values of {experiment}", head, [_row(d) for d in data], f"Data of {experiment}",
+    head = [("Datum", False), ("Measured", True), ("Deviation", True), ("Computed", True), ("Unit", False),
+            ("Residual / deviation", True)]
+    with_mac = any(math.isfinite(d.mac) for d in data)
+    with_mode = with_mac or any(math.isfinite(d.mode) and _mode(d) != d.title.rsplit(" ", 1)[-1] for d in data)
+    head += [("Computed mode", True)] * with_mode + [("MAC", True)] * with_mac
+    return table(f"Single values of {experiment}", head, [_row(d, with_mode, with_mac) for d in data], f"Data of {experiment}",
                  "long named" if len(data) > 15 else "named")
 
 
@@ -93,4 +106,5 @@ def tip(datum):
     measured, deviation, computed, unit = _texts(datum)
     rows = [["Measured", numbers.with_unit(f"{measured} ± {deviation}", unit)],
             ["Computed", numbers.with_unit(computed, unit)], ["Residual / deviation", _residual(datum)]]
+    rows += [["Computed mode", _mode(datum)]] * bool(_mode(datum)) + [["MAC", _mac(datum)]] * bool(_mac(datum))
     return {"title": datum.title, "rows": rows, "e": {}}

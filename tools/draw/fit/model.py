@@ -53,6 +53,8 @@ class Datum:
     computed: float
     at_start: float
     residual: float  # (computed - measured) / deviation
+    mode: float  # number of the computed mode of a frequency
+    mac: float  # modal assurance criterion of the measured and the computed shape
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ def _parameter(node):
 
 def _datum(index, node):
     return Datum(index, node.needed("experiment"), node.text("entry"), node.needed("title"), node.text("unit"),
-                 *map(node.number, ("over", "measured", "deviation", "computed", "computed_at_start", "residual")))
+                 *map(node.number, ("over", "measured", "deviation", "computed", "computed_at_start", "residual", "mode", "mac")))
 
 
 def _direction(node, count):
