@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@
 #include "lib/simulation/sensitivity/motion_sensitivity.h"
 #include "lib/study/fit/headings.h"
 #include "lib/study/fit/measured_shapes.h"
+#include "lib/study/fit/sampled_series.h"
 
 namespace orthodyn::study::fit {
 
@@ -30,7 +32,7 @@ class Reader {
       entry_ = i;
       add(experiment.measured[i]);
     }
-    return {std::move(data_), std::move(matchings_)};
+    return {std::move(data_), std::move(matchings_), std::move(series_)};
   }
 
  private:
@@ -96,16 +98,24 @@ class Reader {
     const double over_factor = factor_of(unit_in(table.names[over]), scene_.harmonic ? "Hz" : "s", m.origin);
     const std::string unit = m.unit.empty() ? unit_in(m.column) : m.unit;
     std::size_t count = 0;
+    if (m.time_offset && scene_.harmonic)
+      m.origin.fail("'time_offset' is for tables over time, and this scene is a harmonic analysis; remove it");
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const double x = over_factor * table.at(row, over), y = table.at(row, values);
       if (std::isnan(x) || std::isnan(y)) continue;
-      const WantedMetric metric = scene_.harmonic ? metric_of(m, {}, x) : metric_of(m, x, {});
+      const double inside = m.time_offset ? std::clamp(x, scene_.time.start, scene_.time.end) : x;
+      const WantedMetric metric = scene_.harmonic ? metric_of(m, {}, x) : metric_of(m, inside, {});
       const std::string si = si_unit(metric);
       push(m, metric, title_of(metric), y * factor_of(unit, si, m.origin), si, unit.empty() ? si : unit);
       data_.back().over = x;
+      if (m.time_offset) data_.back().series = series_.size();
       ++count;
     }
     if (count == 0) m.origin.fail(fmt::format("{}: column '{}' has no values", m.table->path, m.column));
+    if (!m.time_offset) return;
+    std::vector<double> times;
+    for (std::size_t d = data_.size() - count; d < data_.size(); ++d) times.push_back(*data_[d].over);
+    series_.push_back(sampled_series(*m.time_offset, data_.back().metric, std::move(times), scene_.time));
   }
 
   WantedMetric metric_of(const Measurement& m, std::optional<double> at, std::optional<double> frequency) const {
@@ -157,6 +167,7 @@ class Reader {
     if (!(deviation > 0) && m.relative && !is_candidate)
       m.origin.fail(fmt::format("the value {} has no relative deviation: give 'deviation'", value));
     Datum datum{title, entry_, metric, value, deviation, unit, factor_of(unit, si, m.origin)};
+    datum.si = si;
     if (is_candidate) datum.relative = m.relative;
     datum.has_derivatives =
         metric.quantity != kEnergyBalance &&
@@ -170,6 +181,7 @@ class Reader {
   std::size_t entry_ = 0;
   std::vector<Datum> data_;
   std::vector<ModeMatching> matchings_;
+  std::vector<SampledSeries> series_;
 };
 
 }  // namespace

@@ -22,15 +22,28 @@ struct Datum {
   std::optional<double> over = {};  // time (s) or frequency (Hz) in a table
   // Whether its derivatives are exact (EvaluationResult::derivatives). Otherwise they are differences between runs.
   bool has_derivatives = false;
-  std::optional<double> relative = {};  // of a candidate: deviation over the computed value
+  std::optional<double> relative = {};     // of a candidate: deviation over the computed value
+  std::string si = {};                     // SI unit
+  std::optional<std::size_t> series = {};  // index in Data::series, from which the quantity is interpolated
+  // Indices of the problem's parameters: reading(t) = gain * quantity(t + time_offset) + offset.
+  std::optional<std::size_t> gain = {}, offset = {}, time_offset = {};
 
   double deviation_at(double computed) const { return relative ? *relative * std::abs(computed) : deviation; }
 };
 
-// The data of an experiment, and the lists of measured modes that Datum::metric refers to.
+// Samples of a quantity over time, from which values at shifted times are interpolated.
+struct SampledSeries {
+  WantedMetric metric;                   // without a time
+  std::vector<double> times;             // s, ascending
+  double start = 0, low = 0, high = 0;   // of the time offset, s
+  std::optional<double> deviation = {};  // s
+};
+
+// The data of an experiment, with the lists of measured modes and the series that they refer to.
 struct Data {
   std::vector<Datum> data;
   std::vector<ModeMatching> matchings;
+  std::vector<SampledSeries> series;
 };
 
 // Reads the tables, and checks quantities, units and times against `config`, the resolved scene. Throws ConfigError.

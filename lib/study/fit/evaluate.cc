@@ -8,6 +8,7 @@
 #include "lib/scene/scene.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/study/fit/problem.h"
+#include "lib/study/fit/readings.h"
 #include "lib/study/inputs/refined_mesh.h"
 
 namespace orthodyn::study::fit {
@@ -16,21 +17,6 @@ namespace {
 
 // Steps of differences between runs, in the coordinates z: 0.2 %, and 0.5 % of a ratio's interval.
 constexpr double kLogStep = 0.002, kRatioStep = 0.02;
-
-std::string metric_name(std::size_t datum) { return fmt::format("d{}", datum); }
-
-template <class T>
-const T& value_of(const Named<T>& list, const std::string& name) {
-  const auto found = std::ranges::find_if(list, [&](const auto& entry) { return entry.first == name; });
-  if (found == list.end()) throw Failed("the run has no value of a measured quantity");
-  return found->second;
-}
-
-std::optional<ModeMatch> match_of(const EvaluationResult& result, const std::string& metric) {
-  for (const auto& [name, match] : result.matches)
-    if (name == metric) return match;
-  return {};
-}
 
 // Lets a motion be integrated ten times as accurately, or with half of the fixed step.
 void refine_steps(Config& scene) {
@@ -97,8 +83,7 @@ class Plan {
     EvaluationInput input;
     input.matchings = experiment.matchings;
     input.seconds = problem_.limits().seconds, input.code = code_fingerprint();
-    for (std::size_t d = 0; d < experiment.data.size(); ++d)
-      input.metrics.emplace_back(metric_name(d), experiment.data[d].metric);
+    add_metrics(experiment, input);
     // Always, so that the job of a step is the one whose derivatives are needed after the step was accepted.
     if (!parameter && any_exact(experiment) && meshes_ == Meshes::own)
       for (const auto& paths : experiment.paths)
@@ -113,26 +98,28 @@ class Plan {
   Evaluation collected(const std::vector<EvaluationResult>& results) const {
     Evaluation out;
     std::vector<Eigen::RowVectorXd> rows;
+    const Vector values = problem_.coordinates().values(z_);
     const Eigen::MatrixXd slopes = problem_.coordinates().derivatives(z_);
     for (std::size_t run = 0; run < runs_.size();) {
       const std::size_t begin = run++;
       while (run < runs_.size() && runs_[run].parameter) ++run;
       const PreparedExperiment& experiment = *runs_[begin].experiment;
+      const Readings readings(experiment, results[begin], values);
       for (std::size_t d = 0; d < experiment.data.size(); ++d) {
-        const std::string name = metric_name(d);
-        out.computed.push_back(value_of(results[begin].metrics, name));
-        out.matches.push_back(match_of(results[begin], name));
+        out.computed.push_back(readings.reading(d));
+        out.matches.push_back(readings.match(d));
         if (out.matches.back() && !out.matches.back()->failure.empty())
           throw Failed(fmt::format("{}: {}", experiment.name, out.matches.back()->failure));
         if (!std::isfinite(out.computed.back()))
           throw Failed(fmt::format("{}: there is no {}", experiment.name, experiment.data[d].title));
         if (!with_derivatives_) continue;
-        if (std::ranges::all_of(experiment.paths, [](const auto& paths) { return paths.empty(); }))
-          rows.push_back(Eigen::RowVectorXd::Zero(z_.size()));
-        else
-          rows.push_back(experiment.data[d].has_derivatives
-                             ? by_values(experiment, value_of(results[begin].derivatives, name)) * slopes
-                             : by_differences(results, begin, run, name));
+        Eigen::RowVectorXd by_value = Eigen::RowVectorXd::Zero(z_.size()), by_coordinate = by_value;
+        const bool has_paths = std::ranges::any_of(experiment.paths, [](const auto& paths) { return !paths.empty(); });
+        if (has_paths && experiment.data[d].has_derivatives)
+          by_value = readings.gain(d) * by_values(experiment, readings.derivatives(d));
+        else if (has_paths) by_coordinate = by_differences(results, begin, run, d, values);
+        readings.add_derivatives(d, by_value);
+        rows.push_back(by_value * slopes + by_coordinate);
       }
     }
     if (!with_derivatives_) return out;
@@ -152,13 +139,15 @@ class Plan {
     return row;
   }
 
-  // Derivatives by coordinate from the pairs of runs after `begin`.
+  // Derivatives of a reading by coordinate from the pairs of runs after `begin`, with `values` of the nuisances.
   Eigen::RowVectorXd by_differences(const std::vector<EvaluationResult>& results, std::size_t begin, std::size_t end,
-                                    const std::string& name) const {
+                                    std::size_t datum, const Vector& values) const {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(z_.size());
+    const auto reading = [&](std::size_t run) {
+      return Readings(*runs_[run].experiment, results[run], values).reading(datum);
+    };
     for (std::size_t run = begin + 1; run + 1 < end; run += 2)
-      row[static_cast<Eigen::Index>(*runs_[run].parameter)] =
-          (value_of(results[run].metrics, name) - value_of(results[run + 1].metrics, name)) / (2 * runs_[run].step);
+      row[static_cast<Eigen::Index>(*runs_[run].parameter)] = (reading(run) - reading(run + 1)) / (2 * runs_[run].step);
     return row;
   }
 

@@ -75,6 +75,7 @@ void check_measurement(const Measurement& m, const Config& config) {
     refuse(!m.column.empty(), "column", "without 'table'");
     refuse(!m.over.empty(), "over", "without 'table'");
     refuse(!m.unit.empty(), "unit", "without 'table'; write the unit after the value");
+    refuse(m.time_offset.has_value(), "time_offset", "without 'table'");
   }
 }
 
@@ -86,6 +87,8 @@ void check_values(const Named<Experiment>& experiments, const Config& config, bo
       const Config at = config.at(name).at("measured").at(i);
       const bool has_values = m.value || m.table || !m.frequencies.empty();
       if (wants_values && !has_values) at.fail("has no measured 'value' (or 'table')");
+      if (!wants_values && (m.gain || m.offset || m.time_offset))
+        at.fail("a candidate has no gain, offset or time_offset: they are estimated from measured values");
       if (!wants_values && has_values)
         at.fail("a candidate has no measured values: give quantity or mode and the deviation that you expect");
     }
@@ -100,6 +103,19 @@ void check_fit(const Fit& fit, const Config& config) {
 }
 
 }  // namespace
+
+const Spec<Nuisance>& Nuisance::spec() {
+  static const auto s =
+      Spec<Nuisance>()
+          .key("start", &Nuisance::start, "Expected value; default 1 for a gain, else 0.")
+          .key("deviation", &Nuisance::deviation,
+               "Standard deviation of `start`, which then counts as one more measured value. Default: nothing is known "
+               "of it.")
+          .key("name", &Nuisance::name,
+               "Name in results; default EXPERIMENT.N.gain, with the number N of the entry from 1. Entries with the same "
+               "name share one value, as those of one amplifier.");
+  return s;
+}
 
 const Spec<Measurement>& Measurement::spec() {
   static const auto s =
@@ -142,6 +158,15 @@ const Spec<Measurement>& Measurement::spec() {
           .key("relative", &Measurement::relative,
                "Standard deviation as a fraction of each measured value; of a candidate, of its computed value.",
                {.range = kPositive})
+          .key("gain", &Measurement::gain,
+               "The instrument reads gain * quantity + offset, and the gain is estimated with the parameters: {start, "
+               "deviation}, such as {deviation: 0.02} for a gauge whose factor is known to 2 %.")
+          .key("offset", &Measurement::offset,
+               "The instrument's zero, likewise: {start, deviation} in the unit of the quantity.")
+          .key("time_offset", &Measurement::time_offset,
+               "Of a table over time: its time t is the scene's time t + time_offset, because the recorder started at an "
+               "unknown moment. {start, deviation}; it stays within five deviations, without one within a tenth of the "
+               "table's span.")
           .check(check_measurement);
   return s;
 }

@@ -13,6 +13,15 @@
 
 namespace orthodyn::study::fit {
 
+// An unknown of a measurement that is estimated with the parameters: gain, offset or time offset of the instrument.
+struct Nuisance {
+  std::string name;  // default EXPERIMENT.N.gain, with the number N of the entry of `measured`
+  std::optional<YamlText> start;
+  std::optional<YamlText> deviation;  // standard deviation of the start; empty: nothing is known of it
+  SourceLocation origin;
+  static const Spec<Nuisance>& spec();
+};
+
 // How measured frequencies find their computed modes: by number, by the nearest frequency, or by shape.
 enum class MatchBy { order, nearest, shape };
 
@@ -35,6 +44,7 @@ struct Measurement {
   std::string unit;                        // of the column's values; default the one in its heading, else SI
   std::optional<QuantityValue> deviation;  // standard deviation; exactly one of the two
   std::optional<double> relative;          // standard deviation relative to the value
+  std::optional<Nuisance> gain, offset, time_offset;  // reading(t) = gain * quantity(t + time_offset) + offset
   SourceLocation origin;
   static const Spec<Measurement>& spec();
 

@@ -60,6 +60,7 @@ Problem::Problem(const Fit& fit) : limits_(fit.limits) {
   prepare(fit.experiments, false);
   prepare(fit.candidates, true);
   for (const auto& [name, parameter] : fit.parameters) add_parameter(name, parameter);
+  add_nuisances(fit);
   std::vector<PathOfParameter> paths;
   for (std::size_t p = 0; p < parameters_.size(); ++p)
     for (const std::string& path : parameters_[p].paths)
@@ -83,13 +84,14 @@ void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates)
     if (!has_motion && scene.is_map() && !scene.has("time") && !scene.has("analysis"))
       scene.set("time.end", 1.0);  // needed, but without effect
     Data data = data_of(experiment, scene.resolving());
-    experiments_.push_back({name, scene, std::move(data.data), std::move(data.matchings), {}, are_candidates});
+    experiments_.push_back(
+        {name, scene, std::move(data.data), std::move(data.matchings), std::move(data.series), {}, are_candidates});
   }
 }
 
 void Problem::add_parameter(const std::string& name, const Parameter& parameter) {
   FittedParameter fitted;
-  fitted.name = name, fitted.paths = {parameter.path};
+  fitted.name = name, fitted.paths = {parameter.path}, fitted.origin = parameter.origin;
   fitted.paths.insert(fitted.paths.end(), parameter.also.begin(), parameter.also.end());
   std::optional<Config> first;  // scene that has the path
   for (PreparedExperiment& experiment : experiments_) {

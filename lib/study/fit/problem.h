@@ -25,6 +25,8 @@ struct FittedParameter {
   double start = 0;                        // SI
   std::optional<double> lower, upper;      // SI
   std::optional<double> prior, deviation;  // SI; of the prior
+  bool is_nuisance = false;                // gain, offset or time offset of a measurement, without a path
+  SourceLocation origin = {};
 };
 
 // An experiment with its scene. All experiments of a fit are in one list, candidates after the others.
@@ -33,6 +35,7 @@ struct PreparedExperiment {
   Config scene;  // resolved
   std::vector<Datum> data;
   std::vector<ModeMatching> matchings;          // of Datum::metric
+  std::vector<SampledSeries> series;            // of Datum::series
   std::vector<std::vector<std::string>> paths;  // by parameter: those that the scene has
   bool is_candidate = false;
 
@@ -79,6 +82,7 @@ class Problem {
   void prepare(const Named<Experiment>& experiments, bool are_candidates);
   void add_parameter(const std::string& name, const Parameter& parameter);
   void add_coordinate(const Parameter& parameter, const FittedParameter& fitted, const Config& scene);
+  void add_nuisances(const Fit& fit);  // nuisances.cc
   void require_enough_data(const Fit& fit) const;
 
   Limits limits_;

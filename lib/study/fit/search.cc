@@ -99,6 +99,7 @@ std::vector<Vector> starts_of(const Problem& problem, const Fit& fit) {
     Vector z = own;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto p = static_cast<std::size_t>(i);
+      if (parameters[p].is_nuisance) continue;
       const double half = std::log(fit.spread);  // of ratios and linear coordinates likewise
       double low = own[i] - half, high = own[i] + half;
       if (parameters[p].lower) low = coordinates.at(p, *parameters[p].lower);
@@ -238,14 +239,14 @@ class Progress : public ceres::IterationCallback {
   int negligible_ = 0;
 };
 
-void require_effects(const Problem& problem, const Fit& fit, const Residuals& at_start) {
+void require_effects(const Problem& problem, const Residuals& at_start) {
   for (Eigen::Index p = 0; p < at_start.derivatives.cols(); ++p) {
     if (at_start.derivatives.col(p).lpNorm<Eigen::Infinity>() > 0) continue;
-    const auto& [name, parameter] = fit.parameters[static_cast<std::size_t>(p)];
+    const FittedParameter& parameter = problem.parameters()[static_cast<std::size_t>(p)];
     parameter.origin.fail(
         fmt::format("'{}' changes none of the measured quantities; leave it out, or measure a quantity "
                     "that depends on it",
-                    problem.parameters()[static_cast<std::size_t>(p)].paths.front()));
+                    parameter.is_nuisance ? parameter.name : parameter.paths.front()));
   }
 }
 
@@ -268,7 +269,7 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
   shared.PrepareForEvaluation(true, true);
   shared.rethrow();
   if (!shared.succeeded()) throw Failed("the measured quantities cannot be computed at the start: " + shared.failure());
-  require_effects(problem, fit, shared.residuals());
+  require_effects(problem, shared.residuals());
 
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &shared;

@@ -36,11 +36,14 @@ namespace {
 
 constexpr int kMeshErrorStates = 8;
 
-// The requested metrics of quantities; the three lists have the same order.
+// The requested metrics of quantities; the first three lists have the same order.
 struct WantedQuantities {
   std::vector<const std::pair<std::string, WantedMetric>*> metrics;
   std::vector<Expectation> expectations;
-  std::vector<Quantity> quantities;
+  std::vector<std::size_t> index;    // in `quantities`
+  std::vector<Quantity> quantities;  // without repetition
+
+  const Quantity& quantity(std::size_t metric) const { return quantities[index[metric]]; }
 };
 
 WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& setup) {
@@ -51,7 +54,10 @@ WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& se
     wanted.metrics.push_back(&metric);
     Expectation& e = wanted.expectations.emplace_back();
     e.quantity = m.quantity, e.take = m.take, e.at = m.at, e.of = m.of;
-    wanted.quantities.push_back(find_quantity(m.quantity, setup.scene, *setup.built.model, m.origin));
+    const auto known = std::ranges::find(wanted.quantities, m.quantity, &Quantity::name);
+    wanted.index.push_back(static_cast<std::size_t>(known - wanted.quantities.begin()));
+    if (known == wanted.quantities.end())
+      wanted.quantities.push_back(find_quantity(m.quantity, setup.scene, *setup.built.model, m.origin));
   }
   return wanted;
 }
@@ -255,7 +261,7 @@ class Evaluation {
     const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q)
-      keep(wanted.metrics[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
+      keep(wanted.metrics[q]->first, wanted.quantity(q).values(observed)[0], wanted.quantity(q).unit);
     find_derivatives(setup, *problem.path, state, wanted);
     MeshErrorRecorder mesh_error(0);
     if (input_.mesh_error) mesh_error.observe(observed);
@@ -310,7 +316,7 @@ class Evaluation {
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
     std::vector<std::string> names;
-    for (const auto* metric : wanted.metrics) names.push_back(metric->second.quantity);
+    for (const Quantity& quantity : wanted.quantities) names.push_back(quantity.name);
     std::optional<SlopeRecorder> slopes;
     if (setup.sensitivities) observers.push_back(&slopes.emplace(setup, names));
     const Outcome outcome =
@@ -323,10 +329,10 @@ class Evaluation {
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q) {
       const auto& [name, m] = *wanted.metrics[q];
       keep(name,
-           m.settled_within ? settling_time(recorder.series(q), *m.settled_within)
-                            : metric(wanted.expectations[q], recorder, q),
-           m.unit_of(wanted.quantities[q].unit));
-      if (slopes && m.at) result_.derivatives.emplace_back(name, slopes->at(q, *m.at));
+           m.settled_within ? settling_time(recorder.series(wanted.index[q]), *m.settled_within)
+                            : metric(wanted.expectations[q], recorder, wanted.index[q]),
+           m.unit_of(wanted.quantity(q).unit));
+      if (slopes && m.at) result_.derivatives.emplace_back(name, slopes->at(wanted.index[q], *m.at));
     }
     keep(mesh_error);
     draw(*setup.built.model, frame.state());
