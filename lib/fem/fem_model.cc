@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "lib/core/parallel.h"
@@ -44,7 +45,12 @@ std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
 
 std::vector<std::string> term_descriptions(const FemModel::Parts& parts) {
   std::vector<std::string> all;
-  for (const auto& term : parts.elastic) all.push_back(term->description());
+  std::map<std::string, std::size_t> cells;  // of stiffness factors, by region
+  for (const auto& term : parts.elastic) {
+    const ElasticRegion& own = term->definition();
+    if (own.stiffness_cell < 0) all.push_back(term->description());
+    else if (++cells[own.mesh_region] == 1) all.push_back(term->description() + ", as the other cells of its grid");
+  }
   if (parts.subdomain) all.insert(all.end(), parts.load_descriptions.begin(), parts.load_descriptions.end());
   else
     for (const auto& term : parts.loads) all.push_back(term->description());

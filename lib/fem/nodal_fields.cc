@@ -191,7 +191,7 @@ std::vector<FieldRegion> field_regions(const StressRecovery::Terms& terms) {
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const ElasticRegion& own = terms[k]->definition();
     const std::string& joined = own.ply.empty() ? own.mesh_region : own.ply;
-    add_part(own.name, k, regions);
+    if (own.stiffness_cell < 0) add_part(own.name, k, regions);
     if (!joined.empty() && joined != own.name) add_part(joined, k, regions);
   }
   return regions;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <type_traits>
 
 #include "lib/fem/element_groups.h"
 #include "lib/material/stiffness_contrast.h"
@@ -105,10 +107,36 @@ void note_thickness(const std::string& region, const Region& entry, const Stack&
           : fmt::format("{:.4g} m thick", stack.highest)));
 }
 
+// The bounding box of the cells of all regions of the mesh that an entry of the scene describes.
+Box box_of(const Region& entry, const std::vector<const Region*>& regions, const Mesh& mesh) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    if (regions[static_cast<std::size_t>(mesh.region_of[e])] != &entry) continue;
+    for (const int node : mesh.cells[e]) {
+      box.min = box.min.cwiseMin(mesh.node(node));
+      box.max = box.max.cwiseMax(mesh.node(node));
+    }
+  }
+  return box;
+}
+
+Stiffness scaled(const Stiffness& stiffness, double factor) {
+  if (factor == 1) return stiffness;
+  return std::visit(
+      [&](const auto& c) -> Stiffness {
+        if constexpr (std::decay_t<decltype(c)>::kIsotropic)
+          return IsotropicStiffness{factor * c.lambda, factor * c.mu};
+        else return factor * c;
+      },
+      stiffness);
+}
+
 // Makes the parts of one region.
 class PartMaker {
  public:
-  PartMaker(const Scene& scene, Mesh& mesh, ElasticParts& out) : scene_(scene), mesh_(mesh), out_(out) {}
+  PartMaker(const Scene& scene, const std::vector<const Region*>& regions, Mesh& mesh, ElasticParts& out)
+      : scene_(scene), regions_(regions), mesh_(mesh), out_(out) {}
 
   // `kind`: kind_of() these cells.
   void add(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
@@ -116,11 +144,36 @@ class PartMaker {
     if (!entry.layup.empty()) return add_plies(region, entry, axes, type, notes);
     const Material& material = material_named(scene_, entry.material);
     set_density(cells, material.density());
-    out_.parts.push_back({mesh_.region_names[region] + (kind.empty() ? "" : "." + kind), region, &entry, &material,
-                          axes, &type, std::move(cells), 1, material.density()});
+    const ElasticPart part{mesh_.region_names[region] + (kind.empty() ? "" : "." + kind),
+                           region,
+                           &entry,
+                           &material,
+                           axes,
+                           &type,
+                           std::move(cells),
+                           1,
+                           material.density()};
+    if (entry.stiffness_factors) add_grid(part, *entry.stiffness_factors);
+    else out_.parts.push_back(part);
   }
 
  private:
+  // Divides a part into the cells of the grid of factors.
+  void add_grid(const ElasticPart& whole, const StiffnessFactors& factors) {
+    const Box box = box_of(*whole.entry, regions_, mesh_);
+    const std::vector<double> values = factors.all();
+    std::map<int, std::vector<int>> cells;
+    for (const int cell : whole.cells) cells[factors.cell_at(centroid(mesh_, cell), box)].push_back(cell);
+    for (auto& [number, own] : cells) {
+      ElasticPart part = whole;
+      part.name += fmt::format(".cell_{}", number + 1);
+      part.cells = std::move(own);
+      part.stiffness_cell = number;
+      part.stiffness_factor = values[static_cast<std::size_t>(number)];
+      out_.parts.push_back(std::move(part));
+    }
+  }
+
   void add_plies(std::size_t region, const Region& entry, const AxesField& axes, const ElementType& type,
                  Warnings& notes) {
     const std::string& name = mesh_.region_names[region];
@@ -148,6 +201,7 @@ class PartMaker {
   }
 
   const Scene& scene_;
+  const std::vector<const Region*>& regions_;
   Mesh& mesh_;
   ElasticParts& out_;
 };
@@ -177,12 +231,19 @@ double stiffness_damping(const Scene& scene, const Region& region) {
   return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
 }
 
+Box grid_box(const Scene& scene, const std::string& name, const Mesh& mesh) {
+  const std::vector<const Region*> regions = assign_regions(scene, mesh);
+  for (const auto& [own, entry] : scene.regions)
+    if (own == name) return box_of(entry, regions, mesh);
+  throw ConfigError("regions", "there is no region " + name);
+}
+
 ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>& regions, Mesh& mesh, Warnings& notes) {
   ElasticParts out;
   out.density.resize(mesh.cells.size());
   const std::vector<char> in_row = cells_in_rows(mesh);
   auto cells = cells_of_regions(mesh);
-  PartMaker maker(scene, mesh, out);
+  PartMaker maker(scene, regions, mesh, out);
   std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = *regions[r];
@@ -210,9 +271,10 @@ void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh&
                                                                parts.subdomain ? cells.numbers : cells.here);
     parts.elastic.push_back(part.type->elastic_term(
         own,
-        {part.name, std::move(cells.here), part.material->stiffness(), axes, stiffness_damping(scene, entry),
-         elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
-         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share,
+        {part.name, std::move(cells.here), scaled(part.material->stiffness(), part.stiffness_factor), axes,
+         stiffness_damping(scene, entry), elasticity_of(scene, entry), part.material->strength(),
+         std::move(cells.numbers), all, parts.mesh.region_names[part.region], part.ply,
+         parts.subdomain ? part.cells : std::vector<int>(), part.share, part.stiffness_cell, part.stiffness_factor,
          is_mixed(scene, entry, *part.material, *part.type)},
         *parts.pattern));
     parts.densities.push_back(part.density);

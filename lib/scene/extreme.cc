@@ -43,7 +43,8 @@ struct FieldOfRegion {
 std::vector<std::string> region_names(const FemModel& model) {
   std::vector<std::string> names{""};
   for (const auto& term : model.parts().elastic)
-    for (const std::string& name : {term->definition().mesh_region, term->definition().ply, term->region()})
+    for (const std::string& name : {term->definition().mesh_region, term->definition().ply,
+                                    term->definition().stiffness_cell < 0 ? term->region() : ""})
       if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
 }

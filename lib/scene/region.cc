@@ -52,7 +52,12 @@ const Spec<Region>& Region::spec() {
                                  "materials, whose stresses are wrong with displacements alone; not for linear "
                                  "tetrahedra and elasticity.corotation: warped. auto: mixed for nearly incompressible "
                                  "materials.")
+                            .key("stiffness_factors", &Region::stiffness_factors,
+                                 "Factors of the stiffness on a grid over the region, for bodies that are softer in "
+                                 "places. They can be found by a fit.")
                             .check([](const Region& region, const Config& config) {
+                              if (region.stiffness_factors && !region.layup.empty())
+                                config.at("stiffness_factors").fail("is not available for a region with a layup");
                               if (region.material.empty() && region.layup.empty())
                                 config.fail("key 'material' is missing: give a material or a layup");
                               if (!region.material.empty() && !region.layup.empty())

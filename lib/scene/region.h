@@ -12,6 +12,7 @@
 #include "lib/material/material.h"
 #include "lib/mesh/mesh.h"
 #include "lib/scene/layup.h"
+#include "lib/scene/stiffness_factors.h"
 
 namespace orthodyn {
 
@@ -30,6 +31,7 @@ struct Region {
   std::shared_ptr<const AxesSource> axes;
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
+  std::optional<StiffnessFactors> stiffness_factors;
   Integration integration = Integration::automatic;
   Formulation formulation = Formulation::automatic;
   SourceLocation origin;

@@ -38,7 +38,9 @@ struct ElasticRegion {
   std::string ply = {};          // name of the whole ply, of which this may be a part; "" for a region
   std::vector<int> cells_of_all = {};  // cells of all ranks in the whole mesh, ascending; empty with one rank
   double share = 1;                    // of a ply in the thickness of its cells
-  bool mixed = false;                  // formulation for nearly incompressible materials (mixed_elastic_term.h)
+  int stiffness_cell = -1;      // cell of the region's grid of stiffness factors; -1 for a region without factors
+  double stiffness_factor = 1;  // by which `stiffness` was multiplied
+  bool mixed = false;           // formulation for nearly incompressible materials (mixed_elastic_term.h)
 };
 
 class ElasticTerm : public Term {
