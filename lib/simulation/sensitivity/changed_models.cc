@@ -60,10 +60,13 @@ double step_of(const Config& scene, const SceneParameter& parameter, ChangeCount
 // Sections of a scene whose numbers are part of the model or of the initial state.
 constexpr std::array kModelSections{"damping", "gravity", "initial", "loads", "materials",
                                     "mesh",    "motions", "regions", "terms"};
+// The same of a harmonic analysis.
+constexpr std::array kHarmonicSections{"harmonic.losses.", "harmonic.damping_ratio", "harmonic.base_acceleration."};
 
 void require_part_of_model(const std::string& path, const SourceLocation& origin) {
   const std::string section = path.substr(0, path.find('.'));
   if (std::find(kModelSections.begin(), kModelSections.end(), section) != kModelSections.end()) return;
+  if (std::ranges::any_of(kHarmonicSections, [&](const char* begin) { return path.starts_with(begin); })) return;
   origin.fail(fmt::format("'{}' is no number of the model: sensitivities are with respect to numbers of {}", path,
                           join(std::vector<std::string>(kModelSections.begin(), kModelSections.end()))));
 }
@@ -101,6 +104,16 @@ SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene
     }
     return all;
   };
+}
+
+bool is_kinematic(const std::string& quantity) {
+  constexpr std::array kFields{"displacement", "velocity", "nodal_strain", "nodal_strain_space"};
+  for (std::size_t begin = 0; begin <= quantity.size();) {
+    const std::size_t end = std::min(quantity.find('.', begin), quantity.size());
+    if (std::ranges::find(kFields, quantity.substr(begin, end - begin)) != kFields.end()) return true;
+    begin = end + 1;
+  }
+  return false;
 }
 
 Eigen::VectorXd derivative_along(const State& direction, double longest, const Scene& scene, const FemModel& model,

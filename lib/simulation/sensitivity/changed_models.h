@@ -62,6 +62,9 @@ using SceneOutputs = std::function<Eigen::VectorXd(const Scene& scene, const Fem
 // Probes are at the nodes that they have in `model`, also in models with another mesh.
 SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene& scene, const FemModel& model);
 
+// Whether a quantity depends on displacements and velocities only, not on the stiffness. False if this is unknown.
+bool is_kinematic(const std::string& quantity);
+
 // A displacement for differences, 1e-4 of the smallest side of the body, in m: a slender body strongly resists larger
 // straight displacements.
 double small_displacement(const FemModel& model);

@@ -1,8 +1,10 @@
 #include "lib/simulation/sensitivity/equilibrium_sensitivity.h"
 
+#include <optional>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/simulation/sensitivity/stiffness_cell.h"
 
 namespace orthodyn {
 
@@ -23,20 +25,26 @@ EquilibriumSensitivity::EquilibriumSensitivity(const Config& config, const Scene
     throw RunError("the stiffness at the equilibrium is singular, so the derivatives do not exist");
 }
 
-Eigen::VectorXd EquilibriumSensitivity::derivatives(const SceneParameter& parameter,
-                                                    const SceneOutputs& outputs) const {
-  const ChangedModels changed_models(config_, model_, parameter);
+Eigen::VectorXd EquilibriumSensitivity::derivatives(const SceneParameter& parameter, const SceneOutputs& outputs,
+                                                    bool kinematic) const {
   const Vector zero = Vector::Zero(equilibrium_.q.size());
-  const Vector load = changed_models.derivative([&](const ChangedModels::Changed& changed) {
-    Vector force(zero.size());
-    changed.model().force(equilibrium_.t, equilibrium_.q, zero, force);
-    return force;
-  });
+  const auto cell = StiffnessCell::find(parameter.path(), scene_, model_);
+  std::optional<ChangedModels> changed_models;
+  if (!cell || !kinematic) changed_models.emplace(config_, model_, parameter);
+  const Vector load =
+      cell ? cell->force(equilibrium_) : changed_models->derivative([&](const ChangedModels::Changed& changed) {
+        Vector force(zero.size());
+        changed.model().force(equilibrium_.t, equilibrium_.q, zero, force);
+        return force;
+      });
   State slope{equilibrium_.t, Vector(load.size()), zero};
   factor_->solve(load, slope.q);
-  const Eigen::VectorXd at_fixed_q = changed_models.derivative(
-      [&](const ChangedModels::Changed& changed) { return outputs(changed.scene, changed.model(), equilibrium_); });
-  return at_fixed_q + derivative_along(slope, parameter.usual_change(), scene_, model_, equilibrium_, outputs);
+  const Eigen::VectorXd along =
+      derivative_along(slope, parameter.usual_change(), scene_, model_, equilibrium_, outputs);
+  if (!changed_models) return along;
+  return along + changed_models->derivative([&](const ChangedModels::Changed& changed) {
+    return outputs(changed.scene, changed.model(), equilibrium_);
+  });
 }
 
 }  // namespace orthodyn

@@ -24,9 +24,10 @@ class EquilibriumSensitivity {
   EquilibriumSensitivity(const Config& config, const Scene& scene, const FemModel& model, const LoadPath& path,
                          State equilibrium);
 
-  // Derivatives of outputs, per SI unit of the parameter. Throws ConfigError if changes of the parameter change the
-  // mesh's connections.
-  Eigen::VectorXd derivatives(const SceneParameter& parameter, const SceneOutputs& outputs) const;
+  // Derivatives of outputs, per SI unit of the parameter. `kinematic`: the outputs depend on displacements only. Throws
+  // ConfigError if changes of the parameter change the mesh's connections.
+  Eigen::VectorXd derivatives(const SceneParameter& parameter, const SceneOutputs& outputs,
+                              bool kinematic = false) const;
 
  private:
   const Config& config_;

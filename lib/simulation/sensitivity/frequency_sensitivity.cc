@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "lib/mesh/selection.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/sensitivity/changed_models.h"
+#include "lib/simulation/sensitivity/stiffness_cell.h"
 
 namespace orthodyn {
 
@@ -47,9 +49,11 @@ class Forms {
 
   // x . K x.
   double stiffness(const Vector& x) const {
-    const double scale = small_ / std::max(x.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
-    const Vector q = scale * x;
-    return (energy(q) + energy(-q) - 2 * at_rest_) / (scale * scale);
+    return second_difference(x, [&](const Vector& q) { return energy(q) - at_rest_; });
+  }
+  // x . dK/ds x with the stiffness factor s of a cell.
+  double stiffness_by(const StiffnessCell& cell, const Vector& x) const {
+    return second_difference(x, [&](const Vector& q) { return cell.energy({rest_.t, q, rest_.v, 0}); });
   }
   // x . M x.
   double mass(const Vector& x) const {
@@ -62,6 +66,14 @@ class Forms {
   // Displacements over the smallest side of the body: the error due to large rotations is this squared.
   static constexpr double kSmall = 1e-7;
 
+  // `energy`: 0 at rest.
+  template <class Energy>
+  double second_difference(const Vector& x, const Energy& energy) const {
+    const double scale = small_ / std::max(x.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+    const Vector q = scale * x;
+    return (energy(q) + energy(-q)) / (scale * scale);
+  }
+
   double energy(const Vector& q) const { return model_.evaluate("energy.elastic", {rest_.t, q, rest_.v, 0})[0]; }
 
   const FemModel& model_;
@@ -69,14 +81,13 @@ class Forms {
   double at_rest_ = 0, small_ = 0;
 };
 
-// phi_i . (K - omega^2 M) phi_j of a cluster.
-Eigen::MatrixXd form_of(const Forms& forms, const Modes& modes, const Cluster& cluster) {
+// phi_i . A phi_j of a cluster, from the quadratic form x . A x.
+template <class Form>
+Eigen::MatrixXd form_of(const Modes& modes, const Cluster& cluster, const Form& of) {
   const auto n = static_cast<Eigen::Index>(cluster.count);
-  const double lambda = modes.modes[cluster.first].lambda;
   const auto shape = [&](Eigen::Index i) -> const Vector& {
     return modes.modes[cluster.first + static_cast<std::size_t>(i)].shape;
   };
-  const auto of = [&](const Vector& x) { return forms.stiffness(x) - lambda * forms.mass(x); };
   Eigen::MatrixXd form(n, n);
   for (Eigen::Index i = 0; i < n; ++i) form(i, i) = of(shape(i));
   for (Eigen::Index i = 0; i < n; ++i)
@@ -85,16 +96,43 @@ Eigen::MatrixXd form_of(const Forms& forms, const Modes& modes, const Cluster& c
   return form;
 }
 
+// d/dp of phi_i . (K - omega^2 M) phi_j, with the modes and omega as they are.
+class DerivativeOfForm {
+ public:
+  DerivativeOfForm(const Config& scene, const FemModel& model, double t, const Modes& modes,
+                   const SceneParameter& parameter)
+      : model_(model), t_(t), modes_(modes), cell_(StiffnessCell::find(parameter.path(), read_scene(scene), model)) {
+    if (!cell_) changed_models_.emplace(scene, model, parameter);
+  }
+
+  Eigen::MatrixXd of(const Cluster& cluster) const {
+    if (cell_) {
+      const Forms forms(model_, t_);
+      return form_of(modes_, cluster, [&](const Vector& x) { return forms.stiffness_by(*cell_, x); });
+    }
+    const double lambda = modes_.modes[cluster.first].lambda;
+    return changed_models_->derivative([&](const ChangedModels::Changed& changed) {
+      const Forms forms(changed.model(), t_);
+      return form_of(modes_, cluster, [&](const Vector& x) { return forms.stiffness(x) - lambda * forms.mass(x); });
+    });
+  }
+
+ private:
+  const FemModel& model_;
+  double t_;
+  const Modes& modes_;
+  std::optional<StiffnessCell> cell_;
+  std::optional<ChangedModels> changed_models_;
+};
+
 // `count`: number of modes whose derivatives are wanted; `modes` may have more.
 FrequencySensitivity sensitivity(const Config& scene, const FemModel& model, double t, const Modes& modes,
                                  std::size_t count, const SceneParameter& parameter) {
-  const ChangedModels changed_models(scene, model, parameter);
+  const DerivativeOfForm derivative(scene, model, t, modes, parameter);
   FrequencySensitivity out{parameter, std::vector<double>(count, std::numeric_limits<double>::quiet_NaN())};
   for (const Cluster& cluster : clusters_of(modes)) {
     if (cluster.first >= count) break;
-    const Eigen::MatrixXd slope = changed_models.derivative(
-        [&](const ChangedModels::Changed& changed) { return form_of(Forms(changed.model(), t), modes, cluster); });
-    const Eigen::VectorXd slopes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(slope).eigenvalues();
+    const Eigen::VectorXd slopes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(derivative.of(cluster)).eigenvalues();
     for (std::size_t i = 0; i < cluster.count && cluster.first + i < count; ++i) {
       const Mode& mode = modes.modes[cluster.first + i];
       out.derivatives[cluster.first + i] =
