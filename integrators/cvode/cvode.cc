@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <algorithm>
+
+#include "integrators/cvode/backward_problem.h"
 #include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
@@ -45,7 +48,44 @@ class Cvode final : public SundialsIntegrator {
     out = ForwardSensitivities::state(t, dense.get());
   }
 
+  // Integrates from the task's start to the last time of the equations, and the adjoint equations back.
+  AdjointSolution integrate_adjoint(const Task& task, AdjointEquations& equations) {
+    start(task.initial);
+    const std::vector<double>& times = equations.times();
+    require(CVodeAdjInit(memory(), steps_between_checkpoints(), CV_POLYNOMIAL));
+    require(CVodeSetMaxNumSteps(memory(), options_.max_steps));
+    std::vector<State> states;
+    for (const double end : times) {
+      require(CVodeSetStopTime(memory(), end));
+      int checkpoints = 0;
+      double t = 0;
+      callback_context_ = {};
+      finish(CVodeF(memory(), end, y(), &t, CV_NORMAL, &checkpoints));
+      states.push_back({t, positions(y()), velocities(y())});
+    }
+    AdjointSolution out;
+    long forward_steps = 0;
+    CVodeGetNumSteps(memory(), &forward_steps);
+    BackwardProblem backward(memory(), model_, options_, scales_.velocity / scales_.position, equations, y(),
+                             callback_context_, statistics_, context_);
+    for (std::size_t k = times.size(); k-- > 0;) {
+      backward.jump(k, states[k]);
+      backward.integrate_to(k > 0 ? times[k - 1] : task.initial.t);
+    }
+    out = backward.solution();
+    out.forward_steps = forward_steps;
+    return out;
+  }
+
  private:
+  // The states of so many steps are kept, for interpolation while the adjoint equations are integrated. Beyond the last
+  // checkpoint, the motion is integrated again.
+  long steps_between_checkpoints() const {
+    constexpr double kMemory = 5e8;  // bytes
+    constexpr long kFewest = 20, kMost = 10000;
+    return std::clamp(static_cast<long>(kMemory / (static_cast<double>(size()) * sizeof(double))), kFewest, kMost);
+  }
+
   void* memory() const override { return memory_.get(); }
 
   void initialise(double t) override {
@@ -179,6 +219,11 @@ class Cvode final : public SundialsIntegrator {
 std::unique_ptr<Integrator> make_cvode(const CvodeMethod& method, const Model& model, const Options& options,
                                        const Scales& scales, SensitivityEquations* sensitivities) {
   return std::make_unique<Cvode>(method, model, options, scales, sensitivities);
+}
+
+AdjointSolution integrate_cvode_adjoint(const CvodeMethod& method, const Model& model, const Options& options,
+                                        const Scales& scales, const Task& task, AdjointEquations& equations) {
+  return Cvode(method, model, options, scales, nullptr).integrate_adjoint(task, equations);
 }
 
 }  // namespace orthodyn::sundials

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "integrators/sundials/sundials_options.h"
+#include "lib/ode/adjoint_equations.h"
 
 namespace orthodyn::sundials {
 
@@ -22,5 +23,9 @@ struct CvodeMethod {
 // be null, must outlive the integrator.
 std::unique_ptr<Integrator> make_cvode(const CvodeMethod& method, const Model& model, const Options& options,
                                        const Scales& scales, SensitivityEquations* sensitivities);
+
+// AdjointIntegrator::integrate_adjoint() with this method for the motion, and BDF for the adjoint equations.
+AdjointSolution integrate_cvode_adjoint(const CvodeMethod& method, const Model& model, const Options& options,
+                                        const Scales& scales, const Task& task, AdjointEquations& equations);
 
 }  // namespace orthodyn::sundials

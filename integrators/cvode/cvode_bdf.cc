@@ -7,7 +7,7 @@
 namespace orthodyn::sundials {
 namespace {
 
-class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options {
+class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options, public AdjointIntegrator {
  public:
   static const Spec<CvodeBdfChoice>& spec() {
     static const auto s = bdf_spec<CvodeBdfChoice>();
@@ -24,6 +24,11 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options {
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
     return make_cvode({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task.sensitivities);
+  }
+  AdjointSolution integrate_adjoint(const Model& model, const Task& task, AdjointEquations& equations) const override {
+    const Scales sizes = scales(task);
+    const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
+    return integrate_cvode_adjoint({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task, equations);
   }
 
   std::optional<int> max_order;

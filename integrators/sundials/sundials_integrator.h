@@ -100,6 +100,10 @@ class SundialsIntegrator : public Integrator {
   void restart_renewal();
   // Throws RunError with the library's message if the flag is negative.
   void require(int flag) const;
+  // Throws RunError with position, reason and remedy if the flag, of a call that takes steps, is negative.
+  void finish(int flag) {
+    if (flag < 0) fail(flag);
+  }
 
   double current_step() const;  // length of the step being tried, s
   std::string cause() const;    // " (why the model refused the last state)", or empty

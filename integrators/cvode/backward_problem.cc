@@ -1,0 +1,172 @@
+#include "integrators/cvode/backward_problem.h"
+
+#include <cvodes/cvodes.h>
+#include <cvodes/cvodes_ls.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn::sundials {
+
+namespace {
+
+BackwardProblem* self_of(void* user) { return static_cast<BackwardProblem*>(user); }
+
+}  // namespace
+
+BackwardProblem::BackwardProblem(void* memory, const Model& model, const Options& options, double omega,
+                                 AdjointEquations& equations, N_Vector y, CallbackContext& callbacks,
+                                 Statistics& statistics, SUNContext context)
+    : memory_(memory),
+      model_(model),
+      options_(options),
+      omega_(omega),
+      equations_(equations),
+      callbacks_(callbacks),
+      statistics_(statistics),
+      context_(context),
+      matrix_(model, options.linear_solver, TangentKind::exact, statistics),
+      adjoint_(N_VClone(y)),
+      tolerance_(N_VClone(y)),
+      integral_(make_vector(equations.count(), context)),
+      work_(model.num_dofs()) {
+  if (!adjoint_ || !tolerance_) throw RunError("SUNDIALS could not allocate a vector", Reason::out_of_memory);
+  N_VConst(0, adjoint_.get());
+  N_VConst(0, tolerance_.get());
+}
+
+void BackwardProblem::require(int flag) const {
+  if (flag >= 0) return;
+  if (callbacks_.failure) std::rethrow_exception(callbacks_.failure);
+  throw RunError("the adjoint equations could not be integrated: " + callbacks_.message +
+                 (callbacks_.recoverable_cause.empty() ? "" : " (" + callbacks_.recoverable_cause + ")"));
+}
+
+void BackwardProblem::jump(std::size_t k, const State& state) {
+  Vector by_position(model_.num_dofs()), by_velocity(model_.num_dofs());
+  equations_.source(k, state, by_position, by_velocity);
+  Vector b = by_velocity;
+  model_.solve_mass(b);
+  positions(adjoint_.get()) += by_position;
+  velocities(adjoint_.get()) += b;
+  // Sizes of a and of b: a force on one unknown has the first size, and the slow motion that an impulse of this size
+  // gives to the whole body has the second one.
+  const Vector one = Vector::Ones(model_.num_dofs());
+  model_.multiply_mass(one, work_);
+  const double impulse = by_position.lpNorm<1>() / omega_ + by_velocity.lpNorm<1>();
+  const double size_b = impulse / work_.sum() * static_cast<double>(model_.num_dofs());
+  const double size_a = omega_ * impulse / std::sqrt(static_cast<double>(model_.num_dofs()));
+  auto tolerance_a = positions(tolerance_.get()), tolerance_b = velocities(tolerance_.get());
+  tolerance_a = tolerance_a.cwiseMax(options_.rtol * size_a);
+  tolerance_b = tolerance_b.cwiseMax(options_.rtol * size_b / std::sqrt(static_cast<double>(model_.num_dofs())));
+  if (!is_started_) return start(state.t);
+  require(CVodeReInitB(memory_, which_, state.t, adjoint_.get()));
+  require(CVodeSVtolerancesB(memory_, which_, options_.rtol, tolerance_.get()));
+  require(CVodeQuadReInitB(memory_, which_, integral_.get()));
+}
+
+void BackwardProblem::start(double t) {
+  is_started_ = true;
+  require(CVodeCreateB(memory_, CV_BDF, &which_));
+  require(CVodeInitB(
+      memory_, which_,
+      [](sunrealtype time, N_Vector y, N_Vector y_b, N_Vector y_b_dot, void* user) {
+        return self_of(user)->right_hand_side(y, y_b, y_b_dot, time);
+      },
+      t, adjoint_.get()));
+  require(CVodeSetUserDataB(memory_, which_, this));
+  require(CVodeSVtolerancesB(memory_, which_, options_.rtol, tolerance_.get()));
+  require(CVodeSetMaxNumStepsB(memory_, which_, options_.max_steps));
+  placeholder_ = make_placeholder_matrix(context_);
+  functions_.setup = [this] {
+    bool factored = false;
+    const double g = -gamma_;
+    const int thrown = guarded(callbacks_, [&] { factored = matrix_.factor({1, g, g * g}); });
+    return thrown ? thrown : factored ? 0 : 1;
+  };
+  functions_.solve = [this](N_Vector x, N_Vector r, double) {
+    return guarded(callbacks_, [&] {
+      const double g = matrix_.weights().damping;
+      model_.multiply_mass(velocities(r), work_);
+      work_ += g * positions(r);
+      const Vector r_a = positions(r);  // r and x may be the same vector
+      matrix_.solve(work_, velocities(x));
+      matrix_.multiply_stiffness(velocities(x), work_);
+      positions(x) = r_a - g * work_;
+    });
+  };
+  solver_ = make_solver_adapter(functions_, context_);
+  require(CVodeSetLinearSolverB(memory_, which_, solver_.get(), placeholder_.get()));
+  require(CVodeSetLinSysFnB(memory_, which_,
+                            [](sunrealtype time, N_Vector y, N_Vector, N_Vector, SUNMatrix, sunbooleantype keep,
+                               sunbooleantype* renewed, sunrealtype gamma, void* user, N_Vector, N_Vector,
+                               N_Vector) { return self_of(user)->linearize(time, y, keep, gamma, renewed); }));
+  require(CVodeQuadInitB(
+      memory_, which_,
+      [](sunrealtype time, N_Vector y, N_Vector y_b, N_Vector out, void* user) {
+        return self_of(user)->products(time, y, y_b, out);
+      },
+      integral_.get()));
+}
+
+void BackwardProblem::integrate_to(double t) {
+  require(CVodeB(memory_, t, CV_NORMAL));
+  sunrealtype reached = 0;
+  require(CVodeGetB(memory_, which_, &reached, adjoint_.get()));
+  require(CVodeGetQuadB(memory_, which_, &reached, integral_.get()));
+}
+
+AdjointSolution BackwardProblem::solution() {
+  AdjointSolution out;
+  // The library integrates backward, from 0: the integral over the time span is the negative of its result.
+  out.integral = -view(integral_.get());
+  out.a = positions(adjoint_.get());
+  out.momentum.resize(model_.num_dofs());
+  model_.multiply_mass(velocities(adjoint_.get()), out.momentum);
+  void* const own = CVodeGetAdjCVodeBmem(memory_, which_);
+  if (own) CVodeGetNumSteps(own, &out.backward_steps);
+  return out;
+}
+
+int BackwardProblem::linearize(double t, N_Vector y, bool keep, double gamma, sunbooleantype* renewed) {
+  *renewed = !keep;
+  gamma_ = gamma;
+  return guarded(callbacks_, [&] {
+    if (!keep) matrix_.linearize(t, positions(y), velocities(y));
+  });
+}
+
+int BackwardProblem::right_hand_side(N_Vector y, N_Vector y_b, N_Vector y_b_dot, double t) {
+  return guarded(callbacks_, [&] {
+    const auto a = positions(y_b), b = velocities(y_b);
+    const bool is_new = stiffness_.empty() ||
+                        (!model_.traits().linear && (at_.t != t || at_.q != positions(y) || at_.v != velocities(y)));
+    if (is_new) {
+      const Measure measure(statistics_.tangent);
+      at_ = {t, positions(y), velocities(y)};
+      model_.linearize(t, at_.q, at_.v, TangentKind::exact, tangent_);
+      const std::size_t entries = model_.pattern().row.size();
+      stiffness_.resize(entries);
+      damping_.resize(entries);
+      model_.combine({0, 0, 1}, tangent_, stiffness_.data());
+      model_.combine({0, 1, 0}, tangent_, damping_.data());
+      if (std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0; })) damping_.clear();
+    }
+    model_.multiply_matrix(stiffness_.data(), b, positions(y_b_dot));
+    if (damping_.empty()) velocities(y_b_dot) = -a;
+    else {
+      model_.multiply_matrix(damping_.data(), b, velocities(y_b_dot));
+      velocities(y_b_dot) -= a;
+    }
+    model_.solve_mass(velocities(y_b_dot));
+  });
+}
+
+int BackwardProblem::products(double t, N_Vector y, N_Vector y_b, N_Vector out) {
+  return guarded(callbacks_, [&] {
+    const Measure measure(statistics_.sensitivity);
+    equations_.products({t, positions(y), velocities(y)}, velocities(y_b), view(out));
+  });
+}
+
+}  // namespace orthodyn::sundials

@@ -1,0 +1,199 @@
+#include "lib/simulation/sensitivity/gradient.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <memory>
+
+#include "lib/core/errors.h"
+#include "lib/core/spelling.h"
+#include "lib/mesh/selection.h"
+#include "lib/ode/adjoint_equations.h"
+#include "lib/scene/build.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/sensitivity/parameter_products.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/statics/static_problem.h"
+
+namespace orthodyn {
+
+namespace {
+
+// A displacement or velocity component at a probe: an unknown of the model.
+struct ProbedUnknown {
+  int index = -1;
+  bool is_velocity = false;
+
+  double of(const State& state) const { return is_velocity ? state.v[index] : state.q[index]; }
+};
+
+ProbedUnknown probed_unknown(const std::string& quantity, const Scene& scene, const FemModel& model) {
+  const auto fail = [&](const std::string& reason) {
+    throw ConfigError(quantity, reason +
+                                    "; a gradient is of PROBE.displacement.x, .y or .z, or of PROBE.velocity.x, .y "
+                                    "or .z. Derivatives of other quantities: sensitivities in the scene");
+  };
+  for (const auto& [name, probe] : scene.output.probes) {
+    if (!quantity.starts_with(name + ".")) continue;
+    const std::string rest = quantity.substr(name.size() + 1);
+    const auto dot = rest.find('.');
+    const std::string field = rest.substr(0, dot), component = dot == std::string::npos ? "" : rest.substr(dot + 1);
+    const std::string axes = "xyz";
+    if ((field != "displacement" && field != "velocity") || component.size() != 1 ||
+        axes.find(component) == std::string::npos)
+      fail(fmt::format("'{}' is no such quantity", rest));
+    const int node = nearest_node(model.parts().mesh, probe.at);
+    const int index = model.parts().dofs->node(node)[axes.find(component)];
+    if (index < 0) fail("this coordinate is held or moved by a support");
+    if (field == "velocity" && scene.is_static()) fail("the scene is static and has no velocity");
+    return {index, field == "velocity"};
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, probe] : scene.output.probes) names.push_back(name);
+  fail(names.empty() ? "the scene has no probes" : fmt::format("the scene has no such probe; it has {}", join(names)));
+  return {};
+}
+
+std::vector<SceneParameter> parameters_at(const Config& config, const std::vector<std::string>& paths) {
+  std::vector<std::string> all;
+  for (const std::string& path : paths) {
+    const Config value = value_at(config, path);
+    if (!value.is_map() || !value.has("grid")) {
+      all.push_back(path);
+      continue;
+    }
+    if (!value.has("values")) value.fail("factors from a file are no parameters; give them as 'values'");
+    for (std::size_t k = 0; k < value.at("values").size(); ++k) all.push_back(fmt::format("{}.values.{}", path, k));
+  }
+  if (all.empty()) throw ConfigError("parameters", "name at least one number of the scene");
+  return model_parameters(config, all, {"parameters"});
+}
+
+// G = the unknown at one time.
+class Equations final : public AdjointEquations {
+ public:
+  Equations(const ProbedUnknown& unknown, double t, ParameterProducts& products)
+      : unknown_(unknown), times_{t}, products_(products) {}
+
+  const std::vector<double>& times() const override { return times_; }
+  void source(std::size_t, const State& state, VectorRef by_position, VectorRef by_velocity) override {
+    by_position.setZero();
+    by_velocity.setZero();
+    (unknown_.is_velocity ? by_velocity : by_position)[unknown_.index] = 1;
+    value = unknown_.of(state);
+  }
+  int count() const override { return products_.count(); }
+  void products(const State& state, const ConstVectorRef& b, VectorRef out) override {
+    products_.compute(state, b, out);
+  }
+
+  double value = 0;
+
+ private:
+  ProbedUnknown unknown_;
+  std::vector<double> times_;
+  ParameterProducts& products_;
+};
+
+void require_adjoint(const Setup& setup) {
+  const Traits& traits = setup.built.model->traits();
+  const Scene& scene = setup.scene;
+  const auto fail = [](const std::string& reason) { throw ConfigError("gradient", reason); };
+  if (!traits.smooth) fail("the scene has contact, whose force has kinks");
+  if (!traits.exact_stiffness || has_unsymmetric_load(scene, setup.built.model->parts().mesh))
+    fail("the stiffness is unsymmetric (a load that follows the body, or corotation: warped): use sensitivities");
+  if (!scene.is_static() && traits.damping_matrix && !traits.linear)
+    fail(
+        "with stiffness-proportional damping, a body that turns has an unsymmetric tangent: use sensitivities, "
+        "mass-proportional damping, or elasticity.kinematics: linear");
+}
+
+Gradient of_equilibrium(const Setup& setup, const ProbedUnknown& unknown, ParameterProducts& products) {
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  const std::atomic<bool> never{false};
+  const Outcome outcome = run_static(*problem.path, *problem.stepper, {}, never);
+  if (outcome.status != Outcome::Status::completed) throw RunError("no equilibrium was found: " + outcome.message);
+  const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
+  constexpr double kFullLoad = 1;
+  Linearization tangent;
+  problem.path->linearize(kFullLoad, state.q, Vector::Zero(state.q.size()), TangentKind::exact, tangent);
+  std::vector<double> values(problem.path->pattern().row.size());
+  problem.path->combine({0, 0, 1}, tangent, values.data());
+  const auto factor = make_indefinite_solver(problem.path->pattern());
+  if (factor->factor(values.data()) != FactorStatus::ok)
+    throw RunError("the stiffness at the equilibrium is singular, so the derivatives do not exist");
+  Vector unit = Vector::Zero(state.q.size()), adjoint(state.q.size()), out(products.count());
+  unit[unknown.index] = 1;
+  factor->solve(unit, adjoint);
+  products.compute(state, adjoint, out);
+  Gradient found;
+  found.value = unknown.of(state);
+  found.derivatives.assign(out.begin(), out.end());
+  return found;
+}
+
+// K^-1 a at the equilibrium from which a motion starts.
+Vector adjoint_of_equilibrium(const Setup& setup, const Vector& a) {
+  const FemModel& model = *setup.built.model;
+  const State& start = setup.built.initial;
+  Linearization tangent;
+  model.linearize(start.t, start.q, Vector::Zero(start.q.size()), TangentKind::exact, tangent);
+  std::vector<double> values(model.pattern().row.size());
+  model.combine({0, 0, 1}, tangent, values.data());
+  const auto factor = make_indefinite_solver(model.pattern());
+  if (factor->factor(values.data()) != FactorStatus::ok)
+    throw RunError("start: equilibrium: the stiffness is singular, so that the derivatives do not exist");
+  Vector out(a.size());
+  factor->solve(a, out);
+  return out;
+}
+
+Gradient of_motion(const Setup& setup, const ProbedUnknown& unknown, double t, ParameterProducts& products) {
+  const auto* method = dynamic_cast<const AdjointIntegrator*>(setup.scene.integrator.get());
+  if (!method)
+    throw ConfigError("gradient", "adjoint equations are integrated by cvode_bdf: set integrator.type to it");
+  if (setup.scene.start == Start::equilibrium && (setup.scene.initial || !setup.scene.motions.empty()))
+    throw ConfigError("start",
+                      "equilibrium with 'initial' or 'motions' is not available for gradients: use sensitivities");
+  Equations equations(unknown, t, products);
+  const Task task = task_of(setup.scene, setup.built);
+  const AdjointSolution solution = method->integrate_adjoint(*setup.built.model, task, equations);
+  Gradient found;
+  found.value = equations.value;
+  if (setup.scene.start == Start::equilibrium) {
+    const State& start = setup.built.initial;
+    Vector at_start(products.count());
+    products.compute(start, adjoint_of_equilibrium(setup, solution.a), at_start);
+    const Vector sum = solution.integral + at_start;
+    found.derivatives.assign(sum.begin(), sum.end());
+  } else
+    for (int i = 0; i < products.count(); ++i) {
+      const State start = products.initial_derivative(i);
+      found.derivatives.push_back(solution.integral[i] + solution.a.dot(start.q) + solution.momentum.dot(start.v));
+    }
+  found.forward_steps = solution.forward_steps, found.backward_steps = solution.backward_steps;
+  return found;
+}
+
+}  // namespace
+
+Gradient gradient(const Config& config, const GradientRequest& request) {
+  const Setup setup = set_up(config);
+  require_adjoint(setup);
+  const Scene& scene = setup.scene;
+  const ProbedUnknown unknown = probed_unknown(request.quantity, scene, *setup.built.model);
+  if (scene.is_static() && request.at) throw ConfigError("gradient", "the scene is static: leave out the time");
+  const double t = request.at.value_or(scene.time.end);
+  if (!scene.is_static() && !(t > scene.time.start && t <= scene.time.end))
+    throw ConfigError("gradient", fmt::format("the time {} s is outside of the time span, {} to {} s", t,
+                                              scene.time.start, scene.time.end));
+  const auto parameters = parameters_at(setup.config, request.paths);
+  ParameterProducts products(setup.config, scene, setup.built, parameters);
+  Gradient found =
+      scene.is_static() ? of_equilibrium(setup, unknown, products) : of_motion(setup, unknown, t, products);
+  found.unit = unknown.is_velocity ? "m/s" : "m";
+  found.parameters = parameters;
+  return found;
+}
+
+}  // namespace orthodyn

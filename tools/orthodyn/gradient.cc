@@ -1,0 +1,103 @@
+// `orthodyn gradient`: the derivatives of one displacement or velocity with respect to many numbers of a scene.
+#include "lib/simulation/sensitivity/gradient.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/outcome.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/scene_options.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct GradientArguments {
+  std::string scene, quantity;
+  std::vector<std::string> set, paths;
+  std::optional<std::string> at, out;
+  bool quiet = false;
+};
+
+void write_table(const fs::path& file, const std::string& quantity, const Gradient& found) {
+  std::string text = fmt::format("parameter,value [SI unit],d {} / d parameter [{} / SI unit]\n", quantity, found.unit);
+  for (std::size_t i = 0; i < found.parameters.size(); ++i)
+    text += fmt::format("{},{:.10g},{:.10g}\n", found.parameters[i].path(), found.parameters[i].value(),
+                        found.derivatives[i]);
+  write_file(file, {text});
+}
+
+// The parameters with the largest effects: derivatives times a usual change.
+void print_largest(const Gradient& found) {
+  constexpr std::size_t kShown = 10;
+  std::vector<std::size_t> order(found.parameters.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto effect = [&](std::size_t i) { return found.derivatives[i] * found.parameters[i].usual_change(); };
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return std::abs(effect(i)); });
+  fmt::print("  {:44} {:>16}\n", "parameter", "change");
+  for (std::size_t k = 0; k < std::min(kShown, order.size()); ++k)
+    fmt::print("  {:44} {:>16} per {}\n", found.parameters[order[k]].path(),
+               fmt::format("{:+.4g} {}", effect(order[k]), found.unit), found.parameters[order[k]].change_text());
+  if (order.size() > kShown) fmt::print("  and {} parameters with smaller effects\n", order.size() - kShown);
+}
+
+int compute_gradient(const GradientArguments& arguments) {
+  const fs::path folder =
+      arguments.out ? fs::path(*arguments.out) : fs::path("out") / "gradients" / fs::path(arguments.scene).stem();
+  Config config = Config::from_file(arguments.scene);
+  for (const std::string& assignment : arguments.set) config.override_with(assignment);
+  GradientRequest request{arguments.quantity, {}, arguments.paths};
+  if (arguments.at) request.at = read_number(Config::from_text(*arguments.at, "--at"), {.unit = "s"});
+  const double begin = cpu_seconds_now();
+  const Gradient found = gradient(config.resolving(), request);
+  const double seconds = cpu_seconds_now() - begin;
+  fs::create_directories(folder);
+  write_table(folder / "gradient.csv", arguments.quantity, found);
+  if (arguments.quiet) return 0;
+  fmt::print("{} = {:.6g} {}\n", arguments.quantity, found.value, found.unit);
+  print_largest(found);
+  if (found.forward_steps > 0)
+    fmt::print("steps   {} forward, {} backward\n", found.forward_steps, found.backward_steps);
+  fmt::print("cost    {:.3g} s of CPU\ntable   {}\n", seconds, (folder / "gradient.csv").string());
+  return 0;
+}
+
+void declare(GradientArguments& arguments, CommandOptions& options) {
+  options.value("scene", arguments.scene, "A scene in YAML, static or a motion with cvode_bdf.")
+      .required()
+      .type("SCENE.yaml");
+  options.value("--of", arguments.quantity, "The quantity: PROBE.displacement.z or PROBE.velocity.z.")
+      .required()
+      .type("QUANTITY");
+  options
+      .repeated("--by", arguments.paths,
+                "A number of the scene, such as materials.spruce.young.0. The path of a region's stiffness_factors "
+                "stands for the factors of all cells.")
+      .type("PATH");
+  options.value("--at", arguments.at, "Time of the quantity, such as 0.2 s; default the end of the motion.")
+      .type("TIME");
+  options.value("--out", arguments.out, "Folder for gradient.csv; default out/gradients/<scene>.").type("DIR");
+  options.flag("--quiet", arguments.quiet, "Write the table only.");
+  options.repeated("--set", arguments.set, "Change a value of the scene by its path.").type("PATH=VALUE");
+}
+
+const CommandRegistration gradient_command(
+    {.order = 31,
+     .name = "gradient",
+     .sentence = "Compute the derivatives of a displacement with respect to many numbers of a scene, by adjoint "
+                 "equations.",
+     .examples = R"(
+  orthodyn gradient beam.yaml --of tip.displacement.z --by regions.body.stiffness_factors
+  orthodyn gradient motion.yaml --of tip.velocity.x --at 0.2 --by materials.wood.young.0 --by materials.wood.g12)"},
+    declare, compute_gradient);
+
+}  // namespace
+
+}  // namespace orthodyn
