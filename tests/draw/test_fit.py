@@ -105,6 +105,12 @@ class OfAFit(OfAComparison):
         self.assertIn("<strong>−0.5</strong>", text)
         self.assertNotIn("<strong>+0.012</strong>", text)
 
+    def test_profile_intervals_are_beside_the_linearised_ones(self):
+        profile = {"low": {"value": 10.7, "open": False, "failure": ""}, "high": {"value": 11.31, "open": True, "failure": ""}}
+        _, page = self.page_of(parameters=[parameter("E1", 11.00003, 0.17, profile=profile), fit()["parameters"][1]])
+        head, row, other = self.table(page, "Parameter")
+        self.assertEqual((head[3], row[3], other[3]), ("Profile interval", "10.70 to 11.31 (bound)", "–"))
+
     def test_modes_matched_by_shape_have_their_number_and_mac(self):
         _, page = self.page_of(data=[datum("plate", "frequency 1", 89.5, 0.2, mode=1, mac=0.996),
                                      datum("plate", "frequency 2", 91.5, 0.1, mode=3, mac=0.5)])

@@ -1,6 +1,8 @@
 // `orthodyn fit`: parameters of scenes from measured values.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -28,7 +30,7 @@ std::string values_text(const Problem& problem, const Vector& values) {
   return join(words);
 }
 
-// Prints a line for each iteration and each stage.
+// Prints a line for each iteration and each stage, and between them every ten seconds how many runs are done.
 class Printer {
  public:
   Printer(const Problem& problem, bool quiet) : problem_(problem), quiet_(quiet) {}
@@ -48,10 +50,32 @@ class Printer {
     if (!quiet_) fmt::print("{}\n", name);
     std::fflush(stdout);
   }
+  // A run ended. `count`: number of runs of this evaluation.
+  void run(std::size_t count, bool cached) {
+    ++done_;
+    if (!cached) ++worked_;
+    const auto now = Clock::now();
+    const double left = seconds(began_, now) / static_cast<double>(std::max<std::size_t>(worked_, 1)) *
+                        static_cast<double>(count - done_);
+    if (!quiet_ && done_ < count && seconds(told_, now) > kInterval) {
+      fmt::print("       run {} of {}, about {:.0f} s left\n", done_, count, left);
+      std::fflush(stdout);
+      told_ = now;
+    }
+    if (done_ >= count) done_ = worked_ = 0, began_ = told_ = now;
+  }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double kInterval = 10;  // s
+  static double seconds(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double>(end - begin).count();
+  }
+
   const Problem& problem_;
   bool quiet_;
+  Clock::time_point began_ = Clock::now(), told_ = began_;  // of this evaluation; of the last line about runs
+  std::size_t done_ = 0, worked_ = 0;                       // runs of this evaluation; those not found on disk
 };
 
 void write_results(const fs::path& folder, const Json& table) {
@@ -79,8 +103,9 @@ int run(const StudyArguments& arguments) {
     warnings.print(experiment.scene, !experiment.has_modes_only());
   const StudyFolder place(folder, "fit", arguments.file);
   Printer printer(problem, arguments.quiet);
-  const JobOptions options{folder, job_queue(arguments, worker_count(arguments)),
-                           [](std::size_t, const Job&, const EvaluationResult&, bool) {}};
+  const JobOptions options{
+      folder, job_queue(arguments, worker_count(arguments)),
+      [&](std::size_t count, const Job&, const EvaluationResult&, bool cached) { printer.run(count, cached); }};
   if (!arguments.quiet)
     fmt::print("{} measured values, {} parameters\n", problem.data().size(), problem.parameters().size());
   Json table;

@@ -112,7 +112,8 @@ const Spec<Nuisance>& Nuisance::spec() {
                "Standard deviation of `start`, which then counts as one more measured value. Default: nothing is known "
                "of it.")
           .key("name", &Nuisance::name,
-               "Name in results; default EXPERIMENT.N.gain, with the number N of the entry from 1. Entries with the same "
+               "Name in results; default EXPERIMENT.N.gain, with the number N of the entry from 1. Entries with the "
+               "same "
                "name share one value, as those of one amplifier.");
   return s;
 }
@@ -164,7 +165,8 @@ const Spec<Measurement>& Measurement::spec() {
           .key("offset", &Measurement::offset,
                "The instrument's zero, likewise: {start, deviation} in the unit of the quantity.")
           .key("time_offset", &Measurement::time_offset,
-               "Of a table over time: its time t is the scene's time t + time_offset, because the recorder started at an "
+               "Of a table over time: its time t is the scene's time t + time_offset, because the recorder started at "
+               "an "
                "unknown moment. {start, deviation}; it stays within five deviations, without one within a tenth of the "
                "table's span.")
           .check(check_measurement);
@@ -221,6 +223,11 @@ const Spec<Fit>& Fit::spec() {
               "loss", &Fit::loss,
               "squares: least squares. huber, cauchy: residuals above one standard deviation count less, for data with "
               "outliers.")
+          .key(
+              "intervals", &Fit::intervals,
+              "linear: from the linearised covariance. profile: also by profile likelihood, the values at which "
+              "chi-square, minimised over the other parameters, rises by 3.84. Takes a few searches per parameter; for "
+              "intervals that are wide or at the edge of the stable range.")
           .key("starts", &Fit::starts, "Number of searches, each from another start. The best result is kept.",
                {.range = {1, 1000}})
           .key("seed", &Fit::seed, "Seed of the further starts.")

@@ -78,6 +78,9 @@ struct Parameter {
 // Treatment of large residuals: in full, or with less weight (Huber's and Cauchy's loss).
 enum class Loss { squares, huber, cauchy };
 
+// Intervals of the parameters: from the linearised covariance only, or also by profile likelihood.
+enum class Intervals { linear, profile };
+
 struct Fit {
   std::string name;  // the file's stem
   std::string title, description;
@@ -85,6 +88,7 @@ struct Fit {
   Named<Parameter> parameters;
   Named<Experiment> candidates;  // possible further experiments: `measured` without values
   Loss loss = Loss::squares;
+  Intervals intervals = Intervals::linear;
   int starts = 1;
   long seed = 1;
   double spread = 2;  // further starts are within this factor of the first one
@@ -115,6 +119,13 @@ struct EnumNames<study::fit::Loss> {
   using Loss = study::fit::Loss;
   static constexpr std::array<std::pair<Loss, const char*>, 3> list{
       {{Loss::squares, "squares"}, {Loss::huber, "huber"}, {Loss::cauchy, "cauchy"}}};
+};
+
+template <>
+struct EnumNames<study::fit::Intervals> {
+  using Intervals = study::fit::Intervals;
+  static constexpr std::array<std::pair<Intervals, const char*>, 2> list{
+      {{Intervals::linear, "linear"}, {Intervals::profile, "profile"}}};
 };
 
 // `E1: materials.spruce.young.0` is short for `E1: {path: materials.spruce.young.0}`.

@@ -47,6 +47,8 @@ Result run_fit(const Problem& problem, const Fit& fit, JobOptions options, const
   search_all(problem, fit, options, listener, result);
   const Search& best = result.search();
   result.statistics = statistics_of(problem, best, fit.loss);
+  if (fit.intervals == Intervals::profile)
+    result.profiles = profiles_of(problem, fit, best, result.statistics, options, listener.on_stage);
   if (fit.refine) {
     listener.on_stage("refined meshes");
     try {

@@ -66,6 +66,12 @@ Json values_json(const Problem& problem, const Vector& si) {
   return out;
 }
 
+Json end_json(const ProfileEnd& end, double factor) {
+  return {{"value", end.value ? finite_or_null(*end.value / factor) : Json()},
+          {"open", end.is_open},
+          {"failure", end.failure}};
+}
+
 Json parameter_json(const Problem& problem, const Result& result, std::size_t p) {
   const FittedParameter& parameter = problem.parameters()[p];
   const Estimate& estimate = result.statistics.estimates[p];
@@ -84,6 +90,11 @@ Json parameter_json(const Problem& problem, const Result& result, std::size_t p)
            {"at_bound", estimate.at_bound}};
   out["prior"] =
       parameter.prior ? Json{{"value", shown(*parameter.prior)}, {"deviation", shown(*parameter.deviation)}} : Json();
+  const auto profile = std::ranges::find(result.profiles, p, &ProfileInterval::parameter);
+  const bool has_profile = profile != result.profiles.end();
+  out["profile"] = has_profile ? Json{{"low", end_json(profile->low, parameter.factor)},
+                                      {"high", end_json(profile->high, parameter.factor)}}
+                               : Json();
   out["shift"] = result.shift ? shown((*result.shift)[static_cast<Eigen::Index>(p)]) : Json();
   return out;
 }
@@ -230,6 +241,12 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
         "the values are wrong, or a better result is far from the start (try starts: 10). The intervals have no "
         "meaning",
         noise.chi_square));
+  for (const ProfileInterval& profile : result.profiles)
+    if (profile.least_chi_square < 0.99 * 2 * search.cost - 0.01)
+      out.push_back(
+          fmt::format("the profile of {} found a smaller chi-square ({:.4g}): the search ended in a false "
+                      "minimum, so give another start or starts: 10",
+                      problem.parameters()[profile.parameter].name, profile.least_chi_square));
   if (noise.freedom == 0)
     out.push_back("there are as many parameters as measured values, so the fit cannot be tested: measure more");
   for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
@@ -278,51 +295,6 @@ Json fit_json(const Fit& fit, const Problem& problem, const Result& result, cons
     out["materials"].push_back({{"name", material.name}, {"yaml", material.yaml}});
   out["runs"] = result.runs;
   out["cpu_seconds"] = result.cpu_seconds;
-  return out;
-}
-
-std::string parameters_csv(const Json& table) {
-  std::string out = "parameter,unit,value,deviation,low,high,start,knowledge,shift\n";
-  for (const Json& p : table.at("parameters")) {
-    std::string row;
-    for (const char* key : {"name", "unit", "value", "deviation", "low", "high", "start", "knowledge", "shift"})
-      row += (row.empty() ? "" : ",") + csv_cell(p.at(key));
-    out += row + "\n";
-  }
-  return out;
-}
-
-std::string data_csv(const Json& table) {
-  std::string out = "experiment,datum,unit,over,measured,deviation,computed,residual,mode,mac\n";
-  for (const Json& d : table.at("data")) {
-    std::string row;
-    for (const char* key :
-         {"experiment", "title", "unit", "over", "measured", "deviation", "computed", "residual", "mode", "mac"})
-      row += (row.empty() ? "" : ",") + csv_cell(d.at(key));
-    out += row + "\n";
-  }
-  return out;
-}
-
-std::string fit_text(const Json& table) {
-  std::string out = fmt::format("  {:16} {:>14} {:>30}   {}\n", "parameter", "value", "95 % interval", "");
-  for (const Json& p : table.at("parameters")) {
-    const std::string unit = p.at("unit");
-    const double low = number_or_nan(p.at("low")), high = number_or_nan(p.at("high"));
-    const std::string interval = std::isfinite(low) && std::isfinite(high)
-                                     ? fmt::format("{:.5g} to {:.5g} {}", low, high, unit)
-                                     : std::string("unknown");
-    out += fmt::format("  {:16} {:>14} {:>30}   {}\n", p.at("name").get<std::string>(),
-                       fmt::format("{:.5g} {}", number_or_nan(p.at("value")), unit), interval,
-                       p.at("knowledge").get<std::string>());
-  }
-  const Json& noise = table.at("noise");
-  out += fmt::format("chi-square {:.4g} with {} degrees of freedom", number_or_nan(noise.at("chi_square")),
-                     noise.at("freedom").get<long>());
-  if (!noise.at("probability").is_null())
-    out += fmt::format(", probability {:.2g}", number_or_nan(noise.at("probability")));
-  out += fmt::format(", BIC {:.4g}\n", number_or_nan(noise.at("bic")));
-  for (const Json& sentence : table.at("findings")) out += sentence.get<std::string>() + "\n";
   return out;
 }
 

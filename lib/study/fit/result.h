@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/simulation/output/json.h"
-#include "lib/study/fit/statistics.h"
+#include "lib/study/fit/profile.h"
 
 namespace orthodyn::study::fit {
 
@@ -22,6 +22,7 @@ struct Result {
   std::vector<Attempt> attempts;
   std::size_t best = 0;  // index of the attempt with the least cost
   Statistics statistics;
+  std::vector<ProfileInterval> profiles;  // empty unless wanted
   std::optional<Vector> shift;  // of the parameters by a refinement of the meshes, SI
   std::string refinement_failure;
   std::vector<CandidateValue> candidates;

@@ -262,7 +262,7 @@ void set_bounds(ceres::Problem& ceres, const Problem& problem, Vector& z) {
 }  // namespace
 
 Search search(const Problem& problem, const Fit& fit, const Vector& start, const JobOptions& options,
-              const std::function<void(const Iteration&)>& on_iteration) {
+              const std::function<void(const Iteration&)>& on_iteration, std::optional<std::size_t> fixed) {
   Search out;
   out.start = out.z = start;
   SharedEvaluation shared(problem, options, out.z);
@@ -279,6 +279,10 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
     ceres.AddResidualBlock(new ResidualCost(shared, row, start.size()),
                            static_cast<std::size_t>(row) < data ? loss_of(fit.loss) : nullptr, out.z.data());
   set_bounds(ceres, problem, out.z);
+  if (fixed && out.z.size() == 1) ceres.SetParameterBlockConstant(out.z.data());
+  if (fixed && out.z.size() > 1)
+    ceres.SetManifold(out.z.data(),
+                      new ceres::SubsetManifold(static_cast<int>(out.z.size()), {static_cast<int>(*fixed)}));
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = fit.iterations;
@@ -312,7 +316,7 @@ Search search(const Problem& problem, const Fit& fit, const Vector& start, const
 #else
 
 Search search(const Problem&, const Fit&, const Vector&, const JobOptions&,
-              const std::function<void(const Iteration&)>&) {
+              const std::function<void(const Iteration&)>&, std::optional<std::size_t>) {
   throw RunError("this build of orthodyn has no Ceres, which fits need; build with -D ORTHODYN_CERES=ON");
 }
 

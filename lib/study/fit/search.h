@@ -45,10 +45,10 @@ struct Search {
   std::size_t evaluations = 0, failed_evaluations = 0;
 };
 
-// Searches from z. `on_iteration` is called after each iteration. Throws Failed if the data cannot be computed at the
+// Searches from z. `on_iteration` is called after each iteration. `fixed`: a parameter whose coordinate is kept. Throws Failed if the data cannot be computed at the
 // start, ConfigError if a parameter changes no datum, RunError if this build has no Ceres; Interrupted.
 Search search(const Problem& problem, const Fit& fit, const Vector& start, const JobOptions& options,
-              const std::function<void(const Iteration&)>& on_iteration);
+              const std::function<void(const Iteration&)>& on_iteration, std::optional<std::size_t> fixed = {});
 
 // Starts of all searches: the parameters' own start, then points of a Latin hypercube.
 std::vector<Vector> starts_of(const Problem& problem, const Fit& fit);

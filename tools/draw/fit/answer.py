@@ -8,6 +8,8 @@ from ..report.tables import number, table
 from . import numbers
 
 UNKNOWN = "unknown"
+PROFILE = (" Profile interval: where chi-square, minimised over the other parameters, has risen by 3.84; it holds also where the "
+           "linearised interval does not.")
 CAPTION = ("Fitted parameters. The interval contains the true value with a probability of 95 %, if the scenes and the "
            "stated deviations are right. Shift: change by one refinement of the meshes; in bold if it leaves the interval.")
 
@@ -49,8 +51,18 @@ def _shift(parameter):
     return tag("strong", text) if abs(parameter.shift) > parameter.half_width else text
 
 
-def _row(parameter, with_prior, with_shift):
+def _profile(parameter):
+    if not parameter.profile:
+        return formatting.UNKNOWN
+    width = parameter.half_width
+    ends = [UNKNOWN if not math.isfinite(end) else numbers.rounded(end, width) if math.isfinite(width)
+            else numbers.brief(end, 3) for end, _ in parameter.profile]
+    return " to ".join(text + " (bound)" * is_open for text, (_, is_open) in zip(ends, parameter.profile))
+
+
+def _row(parameter, with_prior, with_shift, with_profile):
     cells = [number(value(parameter)), _interval(parameter), _knowledge(parameter), number(numbers.brief(parameter.start))]
+    cells[2:2] = [tag("td", _profile(parameter), class_="word")] if with_profile else []
     cells += [number(_prior(parameter))] if with_prior else []
     cells += [number(_shift(parameter))] if with_shift else []
     return tag("tr", tag("th", parameter.name, scope="row", title=", ".join(parameter.paths) or None), *cells)
@@ -59,11 +71,14 @@ def _row(parameter, with_prior, with_shift):
 def parameter_table(fit):
     with_prior = any(math.isfinite(p.prior) for p in fit.parameters)
     with_shift = any(math.isfinite(p.shift) for p in fit.parameters)
+    with_profile = any(p.profile for p in fit.parameters)
     head = [("Parameter", False), ("Value", True), ("95 % interval", False), ("Knowledge", False), ("Start", True)]
+    head[3:3] = [("Profile interval", False)] if with_profile else []
     head += [("Prior", True)] if with_prior else []
     head += [("Shift", True)] if with_shift else []
-    rows = [_row(p, with_prior, with_shift) for p in fit.parameters]
+    rows = [_row(p, with_prior, with_shift, with_profile) for p in fit.parameters]
     caption = CAPTION if with_shift else CAPTION.split(" Shift:")[0]
+    caption += PROFILE if with_profile else ""
     return table(caption, head, rows, "Parameters")
 
 

@@ -27,6 +27,7 @@ class Parameter:
     prior: float
     prior_deviation: float
     shift: float  # by one refinement of the meshes
+    profile: list = None  # (value, whether chi-square stays low up to the bound) of both ends of the profile interval
 
     @property
     def half_width(self):

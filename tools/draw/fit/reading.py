@@ -46,12 +46,18 @@ def _is_true(node, key):
     return node.value.get(key) is True
 
 
+def _profile(node):
+    profile = node.child("profile")
+    ends = [profile.child(key) for key in ("low", "high")]
+    return [(end.number("value"), _is_true(end, "open")) for end in ends] if profile.value else None
+
+
 def _parameter(node):
     prior = node.child("prior")
     return Parameter(node.needed("name"), node.text("unit"), _texts(node, "paths"),
                      *map(node.number, ("value", "deviation", "low", "high", "start")), _is_true(node, "relative"),
                      node.text("knowledge"), node.text("precision"), _is_true(node, "at_bound"), prior.number("value"),
-                     prior.number("deviation"), node.number("shift"))
+                     prior.number("deviation"), node.number("shift"), _profile(node))
 
 
 def _datum(index, node):
