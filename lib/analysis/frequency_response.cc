@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "lib/core/errors.h"
 
@@ -149,7 +150,25 @@ bool FrequencyResponse::add_parts(const ComplexVector& x) {
   return (imaginary.norm() > least && add(imaginary)) || has_real;
 }
 
-ComplexVector FrequencyResponse::coordinates(double frequency) const {
+ComplexVector FrequencyResponse::reduced(const ComplexVector& load) const {
+  ComplexVector out(basis_.cols());
+  out.real() = basis_.transpose() * load.real();
+  out.imag() = basis_.transpose() * load.imag();
+  return out;
+}
+
+void FrequencyResponse::include(const ComplexVector& load, const VibrationRange& range) {
+  if (lambda_.size() == model_.num_dofs() || load.isZero(0)) return;
+  const ComplexVector own = std::exchange(load_, load);
+  reduced_load_ = reduced(load_);
+  end_ = End::converged;
+  extend_basis(range);
+  find_coupled(range.rtol);
+  load_ = own;
+  reduced_load_ = reduced(load_);
+}
+
+ComplexVector FrequencyResponse::coordinates(double frequency, const ComplexVector& reduced_load) const {
   const double omega = kTwoPi * frequency;
   const auto entry = [&](Eigen::Index j, Eigen::Index k) {
     return Complex(reduced_stiffness_(j, k) - (j == k ? omega * omega : 0),
@@ -161,9 +180,9 @@ ComplexVector FrequencyResponse::coordinates(double frequency) const {
     A.real() = reduced_stiffness_;
     A.imag() = reduced_loss_ + omega * reduced_viscous_;
     A.diagonal().array() -= omega * omega;
-    return A.partialPivLu().solve(reduced_load_);
+    return A.partialPivLu().solve(reduced_load);
   }
-  for (const Eigen::Index k : alone_) y[k] = reduced_load_[k] / entry(k, k);
+  for (const Eigen::Index k : alone_) y[k] = reduced_load[k] / entry(k, k);
   const auto size = std::ssize(coupled_);
   if (size == 0) return y;
   Eigen::MatrixXcd A(size, size);
@@ -171,7 +190,7 @@ ComplexVector FrequencyResponse::coordinates(double frequency) const {
     for (Eigen::Index j = 0; j < size; ++j)
       A(j, k) = entry(coupled_[static_cast<std::size_t>(j)], coupled_[static_cast<std::size_t>(k)]);
   ComplexVector load(size);
-  for (Eigen::Index k = 0; k < size; ++k) load[k] = reduced_load_[coupled_[static_cast<std::size_t>(k)]];
+  for (Eigen::Index k = 0; k < size; ++k) load[k] = reduced_load[coupled_[static_cast<std::size_t>(k)]];
   const ComplexVector part = A.partialPivLu().solve(load);
   for (Eigen::Index k = 0; k < size; ++k) y[coupled_[static_cast<std::size_t>(k)]] = part[k];
   return y;
@@ -231,7 +250,7 @@ ComplexVector FrequencyResponse::response_to(const ComplexVector& force) {
 }
 
 void FrequencyResponse::extend_basis(const VibrationRange& range) {
-  factor();
+  if (!solver_) factor();
   add_parts(response_to(load_));
   constexpr int kPatience = 8;     // additions within which the error must fall by a fifth
   constexpr double kRigid = 1e-5;  // of the velocity norm: least size of the elastic part of x

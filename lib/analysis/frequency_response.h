@@ -50,8 +50,16 @@ class FrequencyResponse {
                     VibrationDamping damping, const VibrationRange& range);
 
   // Coordinates of x in the basis, at a frequency in Hz. Thread-safe.
-  ComplexVector coordinates(double frequency) const;
+  ComplexVector coordinates(double frequency) const { return coordinates(frequency, reduced_load_); }
+  // Likewise, for another load with these products with the vectors of the basis.
+  ComplexVector coordinates(double frequency, const ComplexVector& reduced_load) const;
+  // Extends the basis until it also has the response to another load (N) within the tolerance. error() and end() are
+  // then those of this load.
+  void include(const ComplexVector& load, const VibrationRange& range);
   const Eigen::MatrixXd& basis() const { return basis_; }  // M-orthonormal columns; the modes come first
+
+  // V^T K V with the basis V: the eigenvalues of the modes, and a block of the further vectors.
+  const Eigen::MatrixXd& reduced_stiffness() const { return reduced_stiffness_; }
 
   // phi_k^T F of a mode.
   std::complex<double> modal_load(int mode) const { return reduced_load_[mode]; }
@@ -76,6 +84,7 @@ class FrequencyResponse {
   Vector without_rigid_motion(Vector x) const;
   ComplexVector residual(double omega, const ComplexVector& y) const;
   ComplexVector response_to(const ComplexVector& force);
+  ComplexVector reduced(const ComplexVector& load) const;
   void extend_basis(const VibrationRange& range);
   void find_coupled(double tolerance);
 

@@ -103,7 +103,7 @@ const Spec<Scene>& Scene::spec() {
           .key("sensitivities", &Scene::sensitivities,
                "Numbers of the scene by their paths, such as materials.wood.young.0: sensitivities.csv gets the "
                "derivatives of probes, reactions and energies, or of critical load factors, with respect to them. For "
-               "analysis: static and buckling, and for motions with cvode_bdf, cvode_adams or ida_bdf.")
+               "analysis: static, buckling and harmonic, and for motions with cvode_bdf, cvode_adams or ida_bdf.")
           .key("checkpoint", &Scene::checkpoint,
                "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {}: every "
                "minute.",
@@ -352,10 +352,6 @@ void require_countable_times(const Config& config, const Scene& scene) {
 
 void check_sensitivities(const Scene& scene) {
   if (scene.sensitivities.empty()) return;
-  if (scene.analysis == Analysis::harmonic)
-    scene.sensitivities.origin.fail(
-        "are computed for analysis: dynamic, static and buckling only; those of natural frequencies by `orthodyn modes "
-        "--sensitivity`");
   if (scene.integrator && !scene.integrator->computes_sensitivities())
     scene.sensitivities.origin.fail(
         "are integrated with the motion, which this integrator does not do: set integrator.type to cvode_bdf, "

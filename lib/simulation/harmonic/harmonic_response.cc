@@ -35,20 +35,25 @@ Vector force_of_base(const FemModel& model, const Vec3& acceleration) {
 
 }  // namespace
 
+ComplexVector vibrating_load(const Scene& scene, const FemModel& model, const Vector& q) {
+  const Vector steady = force_of_loads(model, kSteadyPart, q);
+  ComplexVector out(q.size());
+  out.real() = force_of_loads(model, kRealPart, q) - steady;
+  out.imag() = force_of_loads(model, kImaginaryPart, q) - steady;
+  if (const auto& base = scene.harmonic->base_acceleration) out.real() += force_of_base(model, *base);
+  return out;
+}
+
 HarmonicResponse::HarmonicResponse(const Setup& setup) : setup_(setup), model_(*setup.built.model) {
   const Harmonic& harmonic = *setup.scene.harmonic;
   columns_ = response_columns(setup.scene, model_);
   about_ = steady_state();
-  const ComplexVector force = load();
+  const ComplexVector force = vibrating_load(setup.scene, model_, about_.q);
   if (force.isZero(0)) setup.config.fail("the loads that vibrate are zero, or act on clamped nodes only");
   if (harmonic.tap_seconds && !force.imag().isZero(1e-9 * force.norm()))
     setup.config.at("harmonic").at("tap_seconds").fail("needs loads with the phase 0 or 180 deg: a tap has no phase");
   modes_ = find_modes();
-  std::vector<double> natural;
-  for (const Mode& mode : modes_.modes) natural.push_back(mode.frequency());
-  response_.emplace(model_, about_, modes_, force,
-                    VibrationDamping{harmonic.damping_ratio, loss_stiffness(setup.scene, model_, about_.q)},
-                    VibrationRange{check_frequencies(frequency_grid(harmonic, {}), natural), harmonic.rtol});
+  response_.emplace(reduced_system());
   for (std::size_t k = 0; k < modes_.modes.size(); ++k)
     resonances_.push_back({modes_.modes[k].frequency(), response_->loss_factor(static_cast<int>(k))});
   require_damping();
@@ -90,13 +95,20 @@ State HarmonicResponse::steady_state() {
   return {kSteadyPart, equilibrium(setup_.scene, setup_.built), zero};
 }
 
-ComplexVector HarmonicResponse::load() const {
-  const Vector steady = force_of_loads(model_, kSteadyPart, about_.q);
-  ComplexVector out(about_.q.size());
-  out.real() = force_of_loads(model_, kRealPart, about_.q) - steady;
-  out.imag() = force_of_loads(model_, kImaginaryPart, about_.q) - steady;
-  if (const auto& base = setup_.scene.harmonic->base_acceleration) out.real() += force_of_base(model_, *base);
-  return out;
+VibrationRange HarmonicResponse::range() const {
+  std::vector<double> natural;
+  for (const Mode& mode : modes_.modes) natural.push_back(mode.frequency());
+  const Harmonic& harmonic = *setup_.scene.harmonic;
+  return {check_frequencies(frequency_grid(harmonic, {}), natural), harmonic.rtol};
+}
+
+FrequencyResponse HarmonicResponse::reduced_system() const {
+  return {model_,
+          about_,
+          modes_,
+          vibrating_load(setup_.scene, model_, about_.q),
+          VibrationDamping{setup_.scene.harmonic->damping_ratio, loss_stiffness(setup_.scene, model_, about_.q)},
+          range()};
 }
 
 void HarmonicResponse::require_damping() const {

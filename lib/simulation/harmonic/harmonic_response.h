@@ -12,6 +12,10 @@
 
 namespace orthodyn {
 
+// The complex amplitude of the loads that vibrate, on the free coordinates about the displacements q, in N; inertia of
+// a base that shakes included.
+ComplexVector vibrating_load(const Scene& scene, const FemModel& model, const Vector& q);
+
 class HarmonicResponse {
  public:
   // Computes everything but the response itself. `setup` must outlive this object. Throws ConfigError if no load
@@ -41,6 +45,10 @@ class HarmonicResponse {
   };
   Peak peak(std::size_t column) const;
 
+  // A separate reduced system of the same vibration, and the range for which it is made.
+  FrequencyResponse reduced_system() const;
+  VibrationRange range() const;
+
   // The velocity of a column's vibration (0 for a rigid mode) by which a mode answers an impulse of 1 s times the
   // loads.
   double impulse_velocity(std::size_t column, std::size_t mode) const;
@@ -51,7 +59,6 @@ class HarmonicResponse {
 
  private:
   State steady_state();
-  ComplexVector load() const;
   Modes find_modes() const;
   void require_damping() const;
 

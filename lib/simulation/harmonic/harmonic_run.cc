@@ -18,6 +18,7 @@
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
+#include "lib/simulation/sensitivity/response_sensitivity.h"
 
 namespace orthodyn {
 
@@ -102,6 +103,64 @@ void write_response(const std::filesystem::path& path, const HarmonicResponse& r
   }
 }
 
+// Columns whose derivatives are computed.
+std::vector<std::size_t> sensitive_columns(const std::vector<ResponseColumn>& columns) {
+  std::vector<std::size_t> out;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (has_sensitivity(columns[c])) out.push_back(c);
+  return out;
+}
+
+void require_sensitivities(const Setup& setup) {
+  const auto& paths = setup.scene.sensitivities;
+  if (paths.empty()) return;
+  if (!setup.built.model->traits().smooth)
+    paths.origin.fail("are not computed with contact: the force has kinks, at which the response has no derivative");
+  if (sensitive_columns(response_columns(setup.scene, *setup.built.model)).empty())
+    paths.origin.fail(
+        "of a harmonic analysis are those of displacements, velocities and accelerations: give a probe one of these "
+        "fields");
+}
+
+// For each column, derivatives of its amplitude and of its phase in degrees by each parameter.
+void write_sensitivities(const std::filesystem::path& path, const Setup& setup, const HarmonicResponse& response) {
+  const Config config = with_chosen_kinematics(setup.config);
+  const auto parameters = model_parameters(config, setup.scene.sensitivities, setup.scene.sensitivities.origin);
+  const auto columns = sensitive_columns(response.columns());
+  const ResponseSensitivity sensitivity(config, setup, response, columns, parameters);
+  std::vector<std::string> header{"frequency [Hz]"};
+  for (const std::size_t c : columns)
+    for (const SceneParameter& parameter : parameters) {
+      const ResponseColumn& column = response.columns()[c];
+      header.push_back(fmt::format("d {} / d {} [{} / SI unit]", column.name, parameter.path(), column.unit));
+      header.push_back(fmt::format("d {}.phase / d {} [deg / SI unit]", column.name, parameter.path()));
+    }
+  CsvFile file(path, header);
+  file.begin();
+  for (std::size_t f = 0; f < response.frequencies().size(); ++f) {
+    std::vector<double> row{response.frequencies()[f]};
+    for (const std::size_t c : columns) {
+      const std::complex<double> amplitude =
+          response.amplitudes()(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(f));
+      for (const std::complex<double>& slope : sensitivity.derivatives(c, response.frequencies()[f])) {
+        row.push_back(amplitude_slope(amplitude, slope));
+        row.push_back(phase_slope(amplitude, slope) * 180 / std::numbers::pi);
+      }
+    }
+    file.row(row);
+  }
+}
+
+// Without derivatives, the response is still a result.
+void try_to_write_sensitivities(const RunContext& context, const HarmonicResponse& response) {
+  if (context.setup.scene.sensitivities.empty()) return;
+  try {
+    write_sensitivities(context.folder.path() / "sensitivities.csv", context.setup, response);
+  } catch (const std::runtime_error& e) {  // ConfigError or RunError
+    context.listener.on_warning(fmt::format("the sensitivities could not be computed: {}", e.what()));
+  }
+}
+
 void write_modes(const std::filesystem::path& folder, const HarmonicResponse& response, const FemModel& model,
                  const HarmonicResult& result) {
   CsvFile file(folder / "modes.csv", {"mode", "frequency [Hz]", "damping_ratio", "mesh_error"});
@@ -119,6 +178,7 @@ void write_modes(const std::filesystem::path& folder, const HarmonicResponse& re
 
 RunResult run_harmonic_analysis(RunContext context) {
   const Setup& setup = context.setup;
+  require_sensitivities(setup);
   std::optional<HarmonicResponse> response;
   std::exception_ptr input_error;
   RunResult result{.scene = context.scene, .folder = context.folder.path()};
@@ -139,6 +199,7 @@ RunResult run_harmonic_analysis(RunContext context) {
     write_response(result.folder / "response.csv", *response);
     if (const auto seconds = setup.scene.harmonic->tap_seconds) write_taps(result.folder, *response, *seconds);
     write_modes(result.folder, *response, *setup.built.model, *result.harmonic);
+    try_to_write_sensitivities(context, *response);
   }
   result.model = summarize(setup);
   record.finish(result);

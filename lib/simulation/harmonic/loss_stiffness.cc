@@ -7,6 +7,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "lib/material/stiffness_contrast.h"
 #include "lib/scene/build.h"
+#include "lib/simulation/sensitivity/stiffness_product.h"
 
 namespace orthodyn {
 
@@ -71,6 +72,12 @@ Scene loss_scene(const Scene& scene, const FemModel& model) {
   return out;
 }
 
+std::unique_ptr<Model> elasticity_of(const FemModel& model) {
+  auto parts = model.force_parts();
+  parts.resize(model.parts().elastic.size());  // the elastic parts come first
+  return model.only(parts);
+}
+
 }  // namespace
 
 Stiffness loss_of(const Stiffness& stiffness, const MaterialLoss& loss) {
@@ -94,14 +101,22 @@ Stiffness loss_of(const Stiffness& stiffness, const MaterialLoss& loss) {
 std::vector<double> loss_stiffness(const Scene& scene, const FemModel& model, const Vector& q) {
   if (scene.harmonic->losses.empty()) return {};
   const BuiltScene built = build(loss_scene(scene, model));
-  auto parts = built.model->force_parts();
-  parts.resize(built.model->parts().elastic.size());  // the elastic parts come first
-  const auto elasticity = built.model->only(parts);
+  const auto elasticity = elasticity_of(*built.model);
   Linearization at;
   elasticity->linearize(kSteadyPart, q, Vector::Zero(q.size()), TangentKind::gauss_newton, at);
   std::vector<double> values(elasticity->pattern().row.size());
   elasticity->combine({0, 0, 1}, at, values.data());
   return values;
+}
+
+Eigen::MatrixXd loss_products(const Scene& scene, const FemModel& model, const Eigen::MatrixXd& V, double small) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(V.rows(), V.cols());
+  if (scene.harmonic->losses.empty()) return out;
+  const BuiltScene built = build(loss_scene(scene, model));
+  const auto elasticity = elasticity_of(*built.model);
+  for (Eigen::Index k = 0; k < V.cols(); ++k)
+    out.col(k) = stiffness_times(*elasticity, kSteadyPart, Vector::Zero(V.rows()), V.col(k), small);
+  return out;
 }
 
 }  // namespace orthodyn

@@ -19,4 +19,8 @@ Stiffness loss_of(const Stiffness& stiffness, const MaterialLoss& loss);
 // The loss matrix H of the scene, about the unknowns q, on the pattern of its model; empty if no material has losses.
 std::vector<double> loss_stiffness(const Scene& scene, const FemModel& model, const Vector& q);
 
+// H V about rest by differences of forces with the largest displacement `small` (m), which have fewer rounding errors
+// than products with the matrix; zero if no material has losses.
+Eigen::MatrixXd loss_products(const Scene& scene, const FemModel& model, const Eigen::MatrixXd& V, double small);
+
 }  // namespace orthodyn

@@ -15,6 +15,7 @@
 #include "lib/study/fit/headings.h"
 #include "lib/study/fit/measured_shapes.h"
 #include "lib/study/fit/sampled_series.h"
+#include "lib/study/quantities/response_metric.h"
 
 namespace orthodyn::study::fit {
 
@@ -158,6 +159,12 @@ class Reader {
     return metric.at ? fmt::format("{} at {:.6g} s", metric.quantity, *metric.at) : metric.quantity;
   }
 
+  bool has_response_slopes(const WantedMetric& metric) const {
+    if (!scene_.harmonic || !built_.model->traits().smooth) return false;
+    const auto columns = response_columns(scene_, *built_.model);
+    return has_slopes(columns[find_column(columns, metric.quantity, metric.origin)], metric.response_metric());
+  }
+
   // `unit`: of display.
   void push(const Measurement& m, const WantedMetric& metric, const std::string& title, double value,
             const std::string& si, const std::string& unit) {
@@ -169,9 +176,9 @@ class Reader {
     Datum datum{title, entry_, metric, value, deviation, unit, factor_of(unit, si, m.origin)};
     datum.si = si;
     if (is_candidate) datum.relative = m.relative;
-    datum.has_derivatives =
-        metric.quantity != kEnergyBalance &&
-        (scene_.analysis == Analysis::statical || (metric.at && has_motion_sensitivity(config_, scene_, {})));
+    datum.has_derivatives = metric.quantity != kEnergyBalance &&
+                            (scene_.analysis == Analysis::statical ||
+                             (metric.at && has_motion_sensitivity(config_, scene_, {})) || has_response_slopes(metric));
     data_.push_back(std::move(datum));
   }
 

@@ -19,6 +19,7 @@
 #include "lib/simulation/sensitivity/buckling_sensitivity.h"
 #include "lib/simulation/sensitivity/equilibrium_sensitivity.h"
 #include "lib/simulation/sensitivity/frequency_sensitivity.h"
+#include "lib/simulation/sensitivity/response_sensitivity.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
@@ -301,6 +302,29 @@ class Evaluation {
       const std::size_t column = find_column(response->columns(), m.quantity, m.origin);
       keep(name, metric(*response, column, m.response_metric(), m.frequency),
            metric_unit(m.response_metric(), response->columns()[column].unit));
+    }
+    find_derivatives(setup, *response);
+  }
+
+  void find_derivatives(const Setup& setup, const HarmonicResponse& response) {
+    const auto all = parameters();
+    std::vector<std::pair<const std::pair<std::string, WantedMetric>*, std::size_t>> wanted;
+    std::vector<std::size_t> columns;
+    for (const auto& metric : input_.metrics) {
+      const WantedMetric& m = metric.second;
+      if (m.quantity.empty()) continue;
+      const std::size_t column = find_column(response.columns(), m.quantity, m.origin);
+      if (!has_slopes(response.columns()[column], m.response_metric())) continue;
+      wanted.emplace_back(&metric, column);
+      if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+    }
+    if (all.empty() || wanted.empty() || !setup.built.model->traits().smooth) return;
+    const Config config = with_chosen_kinematics(setup.config);
+    const ResponseSensitivity sensitivity(config, setup, response, columns, all);
+    for (const auto& [metric, column] : wanted) {
+      const WantedMetric& m = metric->second;
+      result_.derivatives.emplace_back(metric->first,
+                                       metric_slopes(response, sensitivity, column, m.response_metric(), m.frequency));
     }
   }
 
