@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "lib/simulation/output/files.h"
+#include "lib/study/fit/field_result.h"
 #include "lib/study/fit/fit_run.h"
 #include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"
@@ -21,11 +22,15 @@ namespace {
 
 std::string values_text(const Problem& problem, const Vector& values) {
   std::vector<std::string> words;
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
+  for (const std::size_t p : problem.single_parameters()) {
     const FittedParameter& parameter = problem.parameters()[p];
     words.push_back(fmt::format("{} {:.5g}{}{}", parameter.name,
                                 values[static_cast<Eigen::Index>(p)] / parameter.factor,
                                 parameter.unit.empty() ? "" : " ", parameter.unit));
+  }
+  for (const ParameterField& field : problem.fields()) {
+    const auto own = values.segment(static_cast<Eigen::Index>(field.first), static_cast<Eigen::Index>(field.size()));
+    words.push_back(fmt::format("{} {:.3g} to {:.3g}", field.name, own.minCoeff(), own.maxCoeff()));
   }
   return join(words);
 }
@@ -82,6 +87,8 @@ void write_results(const fs::path& folder, const Json& table) {
   write_file(folder / "fit.json", {to_text(table, 1)});
   write_file(folder / "parameters.csv", {parameters_csv(table)});
   write_file(folder / "data.csv", {data_csv(table)});
+  for (const Json& field : table.at("fields"))
+    write_file(folder / (field.at("name").get<std::string>() + ".csv"), {field_csv(field)});
   for (const Json& material : table.at("materials"))
     write_file(folder / (material.at("name").get<std::string>() + ".yaml"), {material.at("yaml").get<std::string>()});
 }

@@ -108,6 +108,7 @@ SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene
 
 bool is_kinematic(const std::string& quantity) {
   constexpr std::array kFields{"displacement", "velocity", "nodal_strain", "nodal_strain_space"};
+  if (quantity.find("stress") != std::string::npos) return false;  // a probe may have the name of a field
   for (std::size_t begin = 0; begin <= quantity.size();) {
     const std::size_t end = std::min(quantity.find('.', begin), quantity.size());
     if (std::ranges::find(kFields, quantity.substr(begin, end - begin)) != kFields.end()) return true;

@@ -204,7 +204,11 @@ const Spec<Parameter>& Parameter::spec() {
           .key("scale", &Parameter::scale,
                "log: the search changes the value by factors. linear: by differences. Default: log for positive "
                "numbers; linear for angles and negative numbers. Poisson's ratios have their own coordinates, in which "
-               "every material is stable.");
+               "every material is stable.")
+          .key("smoothness", &Parameter::smoothness,
+               "For the path of a region's stiffness_factors, which stands for the factors of all cells of its grid: "
+               "standard deviation of the logarithm of the ratio of neighbouring factors, 0.1 for 10 %.",
+               {.range = kPositive});
   return s;
 }
 

@@ -70,7 +70,8 @@ struct Parameter {
   std::vector<std::string> also;  // further paths that have the same value
   std::optional<YamlText> start, lower, upper;
   std::optional<Prior> prior;
-  std::optional<Scale> scale;  // default: log for positive numbers, linear for angles and negative numbers
+  std::optional<Scale> scale;        // default: log for positive numbers, linear for angles and negative numbers
+  std::optional<double> smoothness;  // of a field (lib/study/fit/field.h)
   SourceLocation origin;
   static const Spec<Parameter>& spec();
 };

@@ -43,7 +43,7 @@ Config rounded_scene(const Problem& problem, const Result& result, const Prepare
 
 std::vector<FittedMaterial> fitted_materials(const Fit& fit, const Problem& problem, const Result& result) {
   std::map<std::string, std::string> comments;  // by material
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p)
+  for (const std::size_t p : problem.single_parameters())
     for (const std::string& path : problem.parameters()[p].paths)
       if (const std::string material = material_of(path); !material.empty())
         comments[material] += interval_line(problem.parameters()[p], result.statistics.estimates[p]);

@@ -89,7 +89,78 @@ void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates)
   }
 }
 
+namespace {
+
+// Throws ConfigError for keys that a field does not have, and for data that are not computed with fields.
+void check_field(const Parameter& parameter, const std::vector<PreparedExperiment>& experiments) {
+  const SourceLocation& origin = parameter.origin;
+  if (!parameter.smoothness)
+    origin.fail(
+        "key 'smoothness' is missing: the standard deviation of the logarithm of the ratio of neighbouring factors, "
+        "such as 0.1; without it, a fit has more parameters than data");
+  if (!parameter.also.empty()) origin.fail("'also' is not available for a field; remove it");
+  if (parameter.scale) origin.fail("'scale' has no effect on a field, whose factors are searched by their logarithms");
+  for (const PreparedExperiment& experiment : experiments)
+    for (const Datum& datum : experiment.data)
+      if (is_field(parameter.path, experiment.scene) && (datum.metric.at || !datum.has_derivatives))
+        origin.fail(
+            fmt::format("a field can be fitted to quantities in equilibrium and to natural frequencies; '{}' of "
+                        "experiment '{}' is neither",
+                        datum.title, experiment.name));
+}
+
+}  // namespace
+
+std::vector<std::size_t> Problem::single_parameters() const {
+  std::vector<std::size_t> out;
+  for (std::size_t p = 0; p < parameters_.size(); ++p)
+    if (std::ranges::none_of(fields_, [&](const auto& f) { return p >= f.first && p < f.first + f.size(); }))
+      out.push_back(p);
+  return out;
+}
+
+void Problem::add_field(const std::string& name, const Parameter& parameter, const Config& scene) {
+  check_field(parameter, experiments_);
+  for (PreparedExperiment& experiment : experiments_)
+    if (is_field(parameter.path, experiment.scene)) fill_values(parameter.path, experiment.scene);
+  ParameterField field = read_field(parameter.path, scene);
+  field.name = name, field.first = parameters_.size(), field.smoothness = *parameter.smoothness;
+  for (const PreparedExperiment& experiment : experiments_)
+    if (is_field(parameter.path, experiment.scene) &&
+        read_field(parameter.path, experiment.scene).factors.grid != field.factors.grid)
+      parameter.origin.fail("the experiments have different grids of these factors");
+  for (std::size_t cell = 0; cell < field.size(); ++cell) {
+    FittedParameter fitted;
+    fitted.name = fmt::format("{}.{}", name, cell + 1), fitted.origin = parameter.origin;
+    fitted.paths = {fmt::format("{}.values.{}", parameter.path, cell)};
+    fitted.start = parameter.start ? si_value(*parameter.start, "") : field.factors.all()[cell];
+    if (parameter.lower) fitted.lower = si_value(*parameter.lower, "");
+    if (parameter.upper) fitted.upper = si_value(*parameter.upper, "");
+    if (parameter.prior) {
+      fitted.prior = si_value(parameter.prior->value, "");
+      fitted.deviation = si_value(parameter.prior->deviation, "");
+    }
+    if (!(fitted.start > 0) || fitted.lower.value_or(1) <= 0 || fitted.upper.value_or(1) <= 0)
+      parameter.origin.fail("stiffness factors are positive: give a positive start, lower and upper");
+    if (fitted.start < fitted.lower.value_or(fitted.start) || fitted.start > fitted.upper.value_or(fitted.start))
+      parameter.origin.fail(fmt::format("the start {:.6g} is outside of the bounds", fitted.start));
+    for (PreparedExperiment& experiment : experiments_) {
+      experiment.paths.emplace_back();
+      if (is_field(parameter.path, experiment.scene)) experiment.paths.back() = fitted.paths;
+    }
+    parameters_.push_back(std::move(fitted));
+    coordinates_.add_log();
+  }
+  fields_.push_back(std::move(field));
+}
+
 void Problem::add_parameter(const std::string& name, const Parameter& parameter) {
+  const auto with_field = std::ranges::find_if(
+      experiments_, [&](const auto& e) { return !e.is_candidate && is_field(parameter.path, e.scene); });
+  if (with_field != experiments_.end()) return add_field(name, parameter, with_field->scene);
+  if (parameter.smoothness)
+    parameter.origin.fail(fmt::format(
+        "smoothness is for a field, whose path is that of a region's stiffness_factors; '{}' is none", parameter.path));
   FittedParameter fitted;
   fitted.name = name, fitted.paths = {parameter.path}, fitted.origin = parameter.origin;
   fitted.paths.insert(fitted.paths.end(), parameter.also.begin(), parameter.also.end());
@@ -166,7 +237,9 @@ void Problem::require_enough_data(const Fit& fit) const {
   const std::size_t priors = static_cast<std::size_t>(
       std::ranges::count_if(parameters_, [](const FittedParameter& p) { return p.prior.has_value(); }));
   const std::size_t values = data().size();
-  if (values + priors >= parameters_.size()) return;
+  std::size_t pairs = 0;
+  for (const ParameterField& field : fields_) pairs += field.neighbours().size();
+  if (values + priors + pairs >= parameters_.size()) return;
   fit.origin.fail(fmt::format(
       "{} measured values{} cannot determine {} parameters: add measured values or priors, or fit fewer parameters",
       values, priors > 0 ? fmt::format(" and {} priors", priors) : "", parameters_.size()));

@@ -12,6 +12,7 @@
 
 #include "lib/study/fit/coordinates.h"
 #include "lib/study/fit/data.h"
+#include "lib/study/fit/field.h"
 #include "lib/study/jobs/job_queue.h"
 #include "lib/study/points/point_jobs.h"
 
@@ -70,6 +71,9 @@ class Problem {
   explicit Problem(const Fit& fit);
 
   const std::vector<FittedParameter>& parameters() const { return parameters_; }
+  const std::vector<ParameterField>& fields() const { return fields_; }
+  // The parameters that are not part of a field.
+  std::vector<std::size_t> single_parameters() const;
   const std::vector<PreparedExperiment>& experiments() const { return experiments_; }
   const Coordinates& coordinates() const { return coordinates_; }
   const Limits& limits() const { return limits_; }
@@ -81,6 +85,7 @@ class Problem {
  private:
   void prepare(const Named<Experiment>& experiments, bool are_candidates);
   void add_parameter(const std::string& name, const Parameter& parameter);
+  void add_field(const std::string& name, const Parameter& parameter, const Config& scene);
   void add_coordinate(const Parameter& parameter, const FittedParameter& fitted, const Config& scene);
   void add_nuisances(const Fit& fit);  // nuisances.cc
   void require_enough_data(const Fit& fit) const;
@@ -88,6 +93,7 @@ class Problem {
   Limits limits_;
   std::vector<PreparedExperiment> experiments_;
   std::vector<FittedParameter> parameters_;
+  std::vector<ParameterField> fields_;
   Coordinates coordinates_;
 };
 

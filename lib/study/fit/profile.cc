@@ -121,7 +121,7 @@ std::vector<ProfileInterval> profiles_of(const Problem& problem, const Fit& fit,
                                          const std::function<void(const std::string& stage)>& on_stage) {
   Profile profile(problem, fit, best, statistics, options);
   std::vector<ProfileInterval> out;
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
+  for (const std::size_t p : problem.single_parameters()) {
     on_stage(fmt::format("profile of {}", problem.parameters()[p].name));
     out.push_back(profile.of(p));
   }

@@ -8,6 +8,7 @@
 #include "lib/core/number_format.h"
 #include "lib/core/spelling.h"
 #include "lib/core/versions.h"
+#include "lib/study/fit/field_result.h"
 #include "lib/study/fit/mode_sentences.h"
 #include "lib/study/jobs/json_values.h"
 
@@ -58,10 +59,10 @@ Json vector_json(const Eigen::VectorXd& values) {
   return out;
 }
 
-// Parameter values in the units of display.
+// Values of the single parameters in the units of display.
 Json values_json(const Problem& problem, const Vector& si) {
   Json out = Json::array();
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p)
+  for (const std::size_t p : problem.single_parameters())
     out.push_back(finite_or_null(si[static_cast<Eigen::Index>(p)] / problem.parameters()[p].factor));
   return out;
 }
@@ -161,7 +162,7 @@ Json candidates_json(const Problem& problem, const Result& result) {
   Json out = Json::array();
   for (const CandidateValue& candidate : result.candidates) {
     Json deviations = Json::array();
-    for (std::size_t p = 0; p < candidate.deviations.size(); ++p)
+    for (const std::size_t p : problem.single_parameters())
       deviations.push_back(finite_or_null(candidate.deviations[p] / problem.parameters()[p].factor));
     out.push_back({{"name", candidate.name},
                    {"deviations", deviations},
@@ -176,7 +177,7 @@ Json candidates_json(const Problem& problem, const Result& result) {
 std::vector<std::string> findings(const Problem& problem, const Result& result) {
   const Statistics& statistics = result.statistics;
   std::vector<std::string> determined, poor, nothing, out;
-  for (std::size_t p = 0; p < statistics.estimates.size(); ++p) {
+  for (const std::size_t p : problem.single_parameters()) {
     const Estimate& estimate = statistics.estimates[p];
     const std::string& name = problem.parameters()[p].name;
     switch (estimate.knowledge) {
@@ -190,19 +191,22 @@ std::vector<std::string> findings(const Problem& problem, const Result& result) 
   if (!nothing.empty())
     out.push_back(fmt::format("They say nothing about {}: fix {}, give a prior, or measure more.", join(nothing),
                               nothing.size() == 1 ? "it" : "them"));
+  for (const ParameterField& field : problem.fields()) out.push_back(field_sentence(result, field));
   const Direction& worst = statistics.directions.front();
-  if (worst.deviation > 0.1 && statistics.estimates.size() > 1)
+  if (worst.deviation > 0.1 && problem.fields().empty() && statistics.estimates.size() > 1)
     out.push_back(fmt::format("The least determined combination is one of {}{}.", combination(problem, worst),
                               std::isfinite(worst.deviation)
                                   ? fmt::format(", known to a factor {:.3g}", std::exp(kInterval95 * worst.deviation))
                                   : ", of which the data say nothing"));
-  for (Eigen::Index i = 0; i < statistics.correlation.rows(); ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      if (std::abs(statistics.correlation(i, j)) > kStrongCorrelation)
+  const std::vector<std::size_t> singles = problem.single_parameters();
+  for (const std::size_t i : singles)
+    for (const std::size_t j : singles) {
+      if (j >= i) break;
+      const double correlation = statistics.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (std::abs(correlation) > kStrongCorrelation)
         out.push_back(fmt::format("{} and {} can hardly be told apart: their correlation is {:.3f}.",
-                                  problem.parameters()[static_cast<std::size_t>(j)].name,
-                                  problem.parameters()[static_cast<std::size_t>(i)].name,
-                                  statistics.correlation(i, j)));
+                                  problem.parameters()[j].name, problem.parameters()[i].name, correlation));
+    }
   const auto best = std::ranges::max_element(result.candidates, {}, &CandidateValue::determinant_gain);
   if (best != result.candidates.end())
     out.push_back(
@@ -249,7 +253,9 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
                       problem.parameters()[profile.parameter].name, profile.least_chi_square));
   if (noise.freedom == 0)
     out.push_back("there are as many parameters as measured values, so the fit cannot be tested: measure more");
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p) {
+  for (const ParameterField& field : problem.fields())
+    for (std::string& warning : field_warnings(result, field)) out.push_back(std::move(warning));
+  for (const std::size_t p : problem.single_parameters()) {
     const FittedParameter& parameter = problem.parameters()[p];
     const Estimate& estimate = result.statistics.estimates[p];
     if (estimate.at_bound)
@@ -274,14 +280,20 @@ Json fit_json(const Fit& fit, const Problem& problem, const Result& result, cons
            {"title", fit.title}, {"description", fit.description},
            {"file", file},       {"version", orthodyn_version()}};
   out["parameters"] = Json::array();
-  for (std::size_t p = 0; p < problem.parameters().size(); ++p)
-    out["parameters"].push_back(parameter_json(problem, result, p));
+  const auto indices = problem.single_parameters();
+  for (const std::size_t p : indices) out["parameters"].push_back(parameter_json(problem, result, p));
+  out["fields"] = Json::array();
+  for (const ParameterField& field : problem.fields()) out["fields"].push_back(field_json(problem, result, field));
+  const std::vector<Eigen::Index> singles(indices.begin(), indices.end());
+  const Eigen::MatrixXd correlation = result.statistics.correlation(singles, singles);
   out["correlation"] = Json::array();
-  for (const auto& row : result.statistics.correlation.rowwise()) out["correlation"].push_back(vector_json(row));
+  for (const auto& row : correlation.rowwise()) out["correlation"].push_back(vector_json(row));
   out["directions"] = Json::array();
-  for (const Direction& direction : result.statistics.directions)
-    out["directions"].push_back(
-        {{"deviation", finite_or_null(direction.deviation)}, {"weights", vector_json(direction.weights)}});
+  const bool has_directions = problem.fields().empty();  // those of fields are too many
+  if (has_directions)
+    for (const Direction& direction : result.statistics.directions)
+      out["directions"].push_back(
+          {{"deviation", finite_or_null(direction.deviation)}, {"weights", vector_json(direction.weights)}});
   out["data"] = data_json(problem, result.search());
   out["noise"] = noise_json(result.statistics.noise);
   out["attempts"] = Json::array();

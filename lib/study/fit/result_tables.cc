@@ -49,7 +49,9 @@ std::string data_csv(const Json& table) {
 }
 
 std::string fit_text(const Json& table) {
-  std::string out = fmt::format("  {:16} {:>14} {:>30}   {}\n", "parameter", "value", "95 % interval", "");
+  std::string out;
+  if (!table.at("parameters").empty())
+    out = fmt::format("  {:16} {:>14} {:>30}   {}\n", "parameter", "value", "95 % interval", "");
   for (const Json& p : table.at("parameters")) {
     const std::string unit = p.at("unit");
     const double low = number_or_nan(p.at("low")), high = number_or_nan(p.at("high"));
@@ -66,7 +68,8 @@ std::string fit_text(const Json& table) {
                      noise.at("freedom").get<long>());
   if (!noise.at("probability").is_null())
     out += fmt::format(", probability {:.2g}", number_or_nan(noise.at("probability")));
-  out += fmt::format(", BIC {:.4g}\n", number_or_nan(noise.at("bic")));
+  if (!noise.at("bic").is_null()) out += fmt::format(", BIC {:.4g}", number_or_nan(noise.at("bic")));
+  out += "\n";
   for (const Json& sentence : table.at("findings")) out += sentence.get<std::string>() + "\n";
   return out;
 }

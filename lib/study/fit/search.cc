@@ -41,14 +41,27 @@ Eigen::MatrixXd weighted(const Problem& problem, const Evaluation& at, Experimen
 Residuals residuals_of(const Problem& problem, const Vector& z, const Evaluation& at) {
   const auto data = problem.data();
   const auto priors = with_priors(problem);
-  const auto count = static_cast<Eigen::Index>(data.size()), all = count + static_cast<Eigen::Index>(priors.size());
+  const auto count = static_cast<Eigen::Index>(data.size());
+  Eigen::Index all = count + static_cast<Eigen::Index>(priors.size());
+  for (const ParameterField& field : problem.fields()) all += std::ssize(field.neighbours());
   Residuals out{Eigen::VectorXd(all), {}};
   for (std::size_t i = 0; i < data.size(); ++i)
     out.values[static_cast<Eigen::Index>(i)] = (at.computed[i] - data[i]->value) / data[i]->deviation;
   if (at.derivatives) {
-    out.derivatives.resize(all, z.size());
+    out.derivatives.setZero(all, z.size());
     out.derivatives.topRows(count) = weighted(problem, at, Experiments::measured);
   }
+  const auto set_smoothness = [&](Eigen::Index row) {
+    for (const ParameterField& field : problem.fields())
+      for (const auto& [a, b] : field.neighbours()) {
+        const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
+        out.values[row] = (z[i] - z[j]) / field.smoothness;
+        if (at.derivatives) out.derivatives(row, i) = 1 / field.smoothness;
+        if (at.derivatives) out.derivatives(row, j) = -1 / field.smoothness;
+        ++row;
+      }
+  };
+  set_smoothness(count + std::ssize(priors));
   if (priors.empty()) return out;
   const Vector values = problem.coordinates().values(z);
   const Eigen::MatrixXd slopes = problem.coordinates().derivatives(z);

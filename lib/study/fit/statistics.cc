@@ -64,13 +64,26 @@ std::optional<double> runs_probability(const Eigen::VectorXd& residuals) {
   return 0.5 * std::erfc((mean - runs) / std::sqrt(2 * variance));
 }
 
-NoiseTest noise_test(const Residuals& residuals, std::size_t data, long rank) {
+// Degrees of freedom of the data beside a field, whose smoothness is not data: their number less the trace of their
+// part of the hat matrix U U^T, which is the effective number of parameters.
+long freedom_beside_field(const Svd& svd, Eigen::Index data) {
+  double parameters = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
+    if (is_determined(svd, k)) parameters += svd.matrixU().col(k).head(data).squaredNorm();
+  return static_cast<long>(data) - std::lround(parameters);
+}
+
+NoiseTest noise_test(const Residuals& residuals, std::size_t data, long rank, const Svd& svd, bool has_field) {
   NoiseTest out;
-  out.chi_square = residuals.values.squaredNorm();
-  out.freedom = residuals.values.size() - rank;
+  const auto count = static_cast<Eigen::Index>(data);
+  out.chi_square = has_field ? residuals.values.head(count).squaredNorm() : residuals.values.squaredNorm();
+  out.freedom = has_field ? freedom_beside_field(svd, count) : residuals.values.size() - rank;
   out.runs_probability = runs_probability(residuals.values.head(static_cast<Eigen::Index>(data)));
-  out.information_criterion = out.chi_square + static_cast<double>(residuals.derivatives.cols()) *
-                                                   std::log(static_cast<double>(residuals.values.size()));
+  // Beside a field, the number of parameters has no meaning.
+  if (has_field) out.information_criterion = kUnknown;
+  else
+    out.information_criterion = out.chi_square + static_cast<double>(residuals.derivatives.cols()) *
+                                                     std::log(static_cast<double>(residuals.values.size()));
   if (out.freedom <= 0) return out;
   const auto freedom = static_cast<double>(out.freedom);
   out.probability = boost::math::gamma_q(freedom / 2, out.chi_square / 2);
@@ -143,7 +156,7 @@ Statistics statistics_of(const Problem& problem, const Search& search, Loss loss
   long rank = 0;
   for (Eigen::Index k = 0; k < n; ++k) rank += is_determined(svd, k);
   Statistics out;
-  out.noise = noise_test(residuals, problem.data().size(), rank);
+  out.noise = noise_test(residuals, problem.data().size(), rank, svd, !problem.fields().empty());
   out.covariance = std::pow(out.noise.factor, 2) * covariance_of(svd);
   out.correlation = correlation_of(out.covariance);
   for (Eigen::Index k = n; k-- > 0;)

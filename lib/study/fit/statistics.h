@@ -33,7 +33,7 @@ struct Estimate {
 };
 
 struct NoiseTest {
-  double chi_square = 0;  // of data and priors
+  double chi_square = 0;  // of data and priors; beside a field, of the data
   long freedom = 0;       // number of residuals less number of parameters that the data determine
   // Probability of a chi_square this large or larger, if the deviations are right; empty if freedom is 0.
   std::optional<double> probability;
@@ -42,7 +42,8 @@ struct NoiseTest {
   std::optional<double> runs_probability;
   // Factor by which the deviations were enlarged, sqrt(chi_square / freedom), because the probability is below 1 %.
   double factor = 1;
-  // Bayesian information criterion (Schwarz 1978): chi_square + parameters * ln(residuals), for known deviations.
+  // Bayesian information criterion (Schwarz 1978): chi_square + parameters * ln(residuals), for known deviations. NaN
+  // beside a field.
   double information_criterion = 0;
 };
 

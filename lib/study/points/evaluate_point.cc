@@ -288,8 +288,10 @@ class Evaluation {
       result_.derivatives.emplace_back(metric->first, std::vector<double>{});
     }
     auto* const first = &result_.derivatives[result_.derivatives.size() - names.size()];
+    const SceneOutputs outputs = named_quantities(names, setup.scene, *setup.built.model);
+    const bool kinematic = std::ranges::all_of(names, is_kinematic);
     for (const SceneParameter& parameter : all) {
-      const auto slopes = sensitivity.derivatives(parameter, named_quantities(names, setup.scene, *setup.built.model));
+      const auto slopes = sensitivity.derivatives(parameter, outputs, kinematic);
       for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[static_cast<Eigen::Index>(i)]);
     }
   }
