@@ -87,7 +87,7 @@ def answer(fit):
     first, *others = [sentence(text, [p.name for p in fit.parameters]) for text in fit.findings] or [
         "The fit has no findings."]
     return joined([tag("p", first, class_="headline"), tag("ul", *(tag("li", s) for s in others)) if others else None,
-                   parameter_table(fit)])
+                   parameter_table(fit) if fit.parameters else None])
 
 
 def banner(fit):

@@ -59,6 +59,19 @@ class Datum:
 
 
 @dataclass(frozen=True)
+class Field:
+    """Stiffness factors on a grid; arrays by layer along z, then y, then x."""
+    name: str
+    path: str
+    grid: list  # cells along x, y, z
+    low_corner: list  # of the region, m
+    high_corner: list
+    smoothness: float
+    factors: object
+    half_widths: object  # of the 95 % intervals, as fractions of the factors
+
+
+@dataclass(frozen=True)
 class Direction:
     """A combination of the search's coordinates; its deviation is infinite if the data say nothing about it."""
     deviation: float
@@ -127,6 +140,7 @@ class Fit:
     file: str
     version: str
     parameters: list
+    fields: list
     correlation: list  # rows
     directions: list
     data: list

@@ -19,13 +19,16 @@ COMBINATIONS = ("Each row is a combination of the parameters, independent of the
                 "(0.1) it is known to about 10 %; right of the second (1) it is undetermined. Positive numbers count by their "
                 "logarithm, so that 0.01 is 1 %; angles in radians; Poisson's ratios by a logistic scale of their stable "
                 "range.")
+FIELD = ("White: as stiff as the material. Given the smoothness, {smoothness:g} for the logarithm of the ratio of neighbouring factors, "
+         "the intervals tell where the data determine the factors. A scene uses them by stiffness_factors: {{grid: [{grid}], file: "
+         "{name}.csv}}.")
 LINEAR = ("linearised at the result: the covariance is the inverse of JᵀJ, with the derivatives J of the residuals over their "
           "deviations")
 
 
 def _counted(fit):
     cpu = formatting.seconds(fit.cpu_seconds)
-    return (formatting.plural(len(fit.data), "measured value"), formatting.plural(len(fit.parameters), "parameter"),
+    return (formatting.plural(len(fit.data), "measured value"), formatting.plural(len(fit.parameters) + sum(f.factors.size for f in fit.fields), "parameter"),
             formatting.plural(fit.runs, "run"), f"{cpu} of CPU time" if math.isfinite(fit.cpu_seconds) else "")
 
 
@@ -35,10 +38,17 @@ def _figure(picture, words, label):
     return tag("figure", tag("div", picture, class_="stage"), tag("figcaption", words), aria_label=label)
 
 
+def _fields(fit, figures):
+    return joined(_figure(figures.field(f), FIELD.format(smoothness=f.smoothness, grid=", ".join(map(str, f.grid)), name=f.name),
+                          f.name) for f in fit.fields)
+
+
 def _knowledge(fit, figures):
+    if fit.fields and len(fit.parameters) < 2:
+        return _fields(fit, figures)
     if len(fit.parameters) < 2:
         return tag("p", "The fit has a single parameter, so there are no correlations.", class_="empty")
-    return joined([_figure(figures.correlation(fit), CORRELATION, "Correlation"),
+    return joined([_fields(fit, figures), _figure(figures.correlation(fit), CORRELATION, "Correlation"),
                    _figure(figures.directions(fit), COMBINATIONS, "Combinations")])
 
 

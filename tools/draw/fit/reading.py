@@ -1,8 +1,10 @@
 """fit.json as a Fit."""
 import math
 
+import numpy as np
+
 from ..study_json import StudyKind, read_study
-from .model import Attempt, Candidate, Datum, Direction, Fit, Iteration, Noise, Parameter
+from .model import Attempt, Candidate, Datum, Direction, Field, Fit, Iteration, Noise, Parameter
 
 KIND = StudyKind("fit.json", "orthodyn fit", ("orthodyn_fit", 1))
 
@@ -65,6 +67,14 @@ def _datum(index, node):
                  *map(node.number, ("over", "measured", "deviation", "computed", "computed_at_start", "residual", "mode", "mac")))
 
 
+def _field(node):
+    grid = [int(n) for n in _numbers(node, "grid", 3)]
+    count = grid[0] * grid[1] * grid[2]
+    factors, low, high = (np.array(_numbers(node, key, count)).reshape(grid[::-1]) for key in ("factors", "low", "high"))
+    return Field(node.needed("name"), node.text("path"), grid, _numbers(node, "min", 3), _numbers(node, "max", 3),
+                 node.number("smoothness"), factors, np.log(high / low) / 2)
+
+
 def _direction(node, count):
     deviation = node.number("deviation")
     return Direction(deviation if math.isfinite(deviation) else math.inf, _numbers(node, "weights", count))
@@ -104,12 +114,13 @@ def _candidate(node, count):
 
 
 def _fit(node):
-    parameters = [_parameter(p) for p in _some(node, "parameters")]
+    fields = [_field(f) for f in node.children("fields")]
+    parameters = [_parameter(p) for p in (node.children("parameters") if fields else _some(node, "parameters"))]
     count = len(parameters)
     data = [_datum(k, d) for k, d in enumerate(_some(node, "data"))]
     best = node.number("best")
     return Fit(node.text("title") or node.needed("name"), node.text("description"), node.text("file"),
-               node.text("version"), parameters, _matrix(node, "correlation", count),
+               node.text("version"), parameters, fields, _matrix(node, "correlation", count),
                [_direction(d, count) for d in node.children("directions")], data, _noise(node.child("noise")),
                _attempts(node, count, len(data)), int(best) if math.isfinite(best) else 0,
                [_candidate(c, count) for c in node.children("candidates")], _texts(node, "findings"),
