@@ -79,6 +79,19 @@ class AModel(unittest.TestCase):
         with self.assertRaisesRegex(orthodyn.ConfigError, "no key 'densty'"):
             self.model.modes(3, sensitivities=[path.replace("density", "densty")])
 
+    def test_has_gradients_by_many_numbers(self):
+        """Displacements of a linear motion are proportional to gravity."""
+        scene = orthodyn.Scene(beam(elasticity={"kinematics": "linear"}, regions={
+            "all": {"material": "wood", "stiffness_factors": {"grid": [3, 1, 1], "values": [1, 0.8, 1.2]}}}))
+        factors = "regions.all.stiffness_factors"
+        value, slopes = scene.model().gradient("tip.displacement.z", ["gravity.2", factors])
+        self.assertLess(value, -0.01)
+        self.assertEqual(list(slopes), ["gravity.2"] + [f"{factors}.values.{k}" for k in range(3)])
+        self.assertAlmostEqual(-9.81 * slopes["gravity.2"] / value, 1, delta=1e-3)
+        self.assertGreater(slopes[f"{factors}.values.0"], 10 * abs(slopes[f"{factors}.values.2"]))
+        with self.assertRaisesRegex(orthodyn.ConfigError, "no such probe; it has tip"):
+            scene.model().gradient("top.displacement.z", factors)
+
     def test_is_in_equilibrium_where_it_says(self):
         q = self.model.equilibrium()
         weight = np.linalg.norm(self.model.force(0.2, np.zeros(self.model.n)))

@@ -4,10 +4,13 @@
 #include <pybind11/stl.h>
 
 #include <cctype>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "lib/core/versions.h"
+#include "lib/simulation/sensitivity/gradient.h"
 #include "lib/simulation/simulation.h"
 #include "tools/python/binding/arrays.h"
 #include "tools/python/binding/integrate.h"
@@ -139,6 +142,18 @@ void declare_scene_model(py::module_& m) {
              return py::make_tuple(array_of(std::move(found.frequencies)),
                                    array_of(std::move(found.shapes), {k, s.model().num_dofs()}),
                                    array_of(std::move(found.mesh_errors)), frequency_slopes, shape_slopes);
+           })
+      .def("gradient",
+           [](const SceneModel& s, const std::string& quantity, std::optional<double> at,
+              const std::vector<std::string>& paths) {
+             Gradient found;
+             {
+               const py::gil_scoped_release unlocked;
+               found = gradient(s.setup().config, {quantity, at, paths});
+             }
+             std::vector<std::string> names;
+             for (const SceneParameter& parameter : found.parameters) names.push_back(parameter.path());
+             return py::make_tuple(found.value, names, array_of(std::move(found.derivatives)));
            })
       .def("unknowns",
            [](const SceneModel& s) {

@@ -112,6 +112,14 @@ class Model:
         *found, frequencies, shapes = self._core.modes(count, about_equilibrium, paths, shape_sensitivities)
         return Modes(*found, dict(zip(paths, frequencies)), dict(zip(paths, shapes)))
 
+    def gradient(self, quantity: str, by: str | Sequence[str], at: float | None = None) -> tuple[float, dict[str, float]]:
+        """A probe's displacement or velocity component ("tip.displacement.z") at full load or at the time `at` (s; default the
+        end), and its derivatives with respect to numbers of the scene, by path, per SI unit. They are computed by adjoint
+        equations, whose cost hardly depends on the number of parameters; the path of a region's `stiffness_factors` stands for
+        all of them. Raises ConfigError for scenes, quantities and numbers without such derivatives."""
+        value, names, derivatives = self._core.gradient(quantity, at, [by] if isinstance(by, str) else list(by))
+        return value, dict(zip(names, derivatives.tolist()))
+
     def equilibrium(self) -> np.ndarray:
         """Static q under the loads at the end of the scene's time. Raises ConfigError for an unsupported body, RunError if no
         equilibrium is found."""
