@@ -14,12 +14,13 @@ BackwardProblem* self_of(void* user) { return static_cast<BackwardProblem*>(user
 
 }  // namespace
 
-BackwardProblem::BackwardProblem(void* memory, const Model& model, const Options& options, double omega,
+BackwardProblem::BackwardProblem(void* memory, const Model& model, const Options& options, int max_order, double omega,
                                  AdjointEquations& equations, N_Vector y, CallbackContext& callbacks,
                                  Statistics& statistics, SUNContext context)
     : memory_(memory),
       model_(model),
       options_(options),
+      max_order_(max_order),
       omega_(omega),
       equations_(equations),
       callbacks_(callbacks),
@@ -76,6 +77,7 @@ void BackwardProblem::start(double t) {
       t, adjoint_.get()));
   require(CVodeSetUserDataB(memory_, which_, this));
   require(CVodeSVtolerancesB(memory_, which_, options_.rtol, tolerance_.get()));
+  require(CVodeSetMaxOrdB(memory_, which_, max_order_));
   require(CVodeSetMaxNumStepsB(memory_, which_, options_.max_steps));
   placeholder_ = make_placeholder_matrix(context_);
   functions_.setup = [this] {

@@ -21,8 +21,9 @@ class BackwardProblem {
  public:
   // `memory`: of CVODES, after a forward integration by CVodeF(). `y`: a vector like the state. All references must
   // outlive this object.
-  BackwardProblem(void* memory, const Model& model, const Options& options, double omega, AdjointEquations& equations,
-                  N_Vector y, CallbackContext& callbacks, Statistics& statistics, SUNContext context);
+  BackwardProblem(void* memory, const Model& model, const Options& options, int max_order, double omega,
+                  AdjointEquations& equations, N_Vector y, CallbackContext& callbacks, Statistics& statistics,
+                  SUNContext context);
 
   // Adds the jump at t_k; the first call, for the last t_k, starts the problem.
   void jump(std::size_t k, const State& state);
@@ -41,7 +42,8 @@ class BackwardProblem {
   void* memory_;
   const Model& model_;
   const Options& options_;
-  double omega_;  // of the motion, rad/s
+  int max_order_;  // of BDF
+  double omega_;   // of the motion, rad/s
   AdjointEquations& equations_;
   CallbackContext& callbacks_;
   Statistics& statistics_;

@@ -66,8 +66,8 @@ class Cvode final : public SundialsIntegrator {
     AdjointSolution out;
     long forward_steps = 0;
     CVodeGetNumSteps(memory(), &forward_steps);
-    BackwardProblem backward(memory(), model_, options_, scales_.velocity / scales_.position, equations, y(),
-                             callback_context_, statistics_, context_);
+    BackwardProblem backward(memory(), model_, options_, method_.max_order, scales_.velocity / scales_.position,
+                             equations, y(), callback_context_, statistics_, context_);
     for (std::size_t k = times.size(); k-- > 0;) {
       backward.jump(k, states[k]);
       backward.integrate_to(k > 0 ? times[k - 1] : task.initial.t);
