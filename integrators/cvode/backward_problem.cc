@@ -10,18 +10,23 @@ namespace orthodyn::sundials {
 
 namespace {
 
+// Tolerance of the adjoint equations over that of the motion. A force on one unknown shakes all modes, also those that
+// the motion does not have; their errors hardly change the integral. Beam without damping, 4,950 unknowns, rtol 1e-4:
+// with 10 (100) the derivatives change by 0.02 % (0.3 %) of the largest, in 9,400 (1,500) steps instead of 26,100.
+constexpr double kTolerance = 30;
+
 BackwardProblem* self_of(void* user) { return static_cast<BackwardProblem*>(user); }
 
 }  // namespace
 
-BackwardProblem::BackwardProblem(void* memory, const Model& model, const Options& options, int max_order, double omega,
-                                 AdjointEquations& equations, N_Vector y, CallbackContext& callbacks,
-                                 Statistics& statistics, SUNContext context)
+BackwardProblem::BackwardProblem(void* memory, const Model& model, const Options& options, int max_order,
+                                 const Scales& scales, AdjointEquations& equations, N_Vector y,
+                                 CallbackContext& callbacks, Statistics& statistics, SUNContext context)
     : memory_(memory),
       model_(model),
       options_(options),
       max_order_(max_order),
-      omega_(omega),
+      scales_(scales),
       equations_(equations),
       callbacks_(callbacks),
       statistics_(statistics),
@@ -50,19 +55,23 @@ void BackwardProblem::jump(std::size_t k, const State& state) {
   model_.solve_mass(b);
   positions(adjoint_.get()) += by_position;
   velocities(adjoint_.get()) += b;
+  const double omega = scales_.velocity / scales_.position, rtol = kTolerance * options_.rtol;
   // Sizes of a and of b: a force on one unknown has the first size, and the slow motion that an impulse of this size
   // gives to the whole body has the second one.
   const Vector one = Vector::Ones(model_.num_dofs());
   model_.multiply_mass(one, work_);
-  const double impulse = by_position.lpNorm<1>() / omega_ + by_velocity.lpNorm<1>();
+  const double impulse = by_position.lpNorm<1>() / omega + by_velocity.lpNorm<1>();
   const double size_b = impulse / work_.sum() * static_cast<double>(model_.num_dofs());
-  const double size_a = omega_ * impulse / std::sqrt(static_cast<double>(model_.num_dofs()));
+  const double size_a = omega * impulse / std::sqrt(static_cast<double>(model_.num_dofs()));
   auto tolerance_a = positions(tolerance_.get()), tolerance_b = velocities(tolerance_.get());
-  tolerance_a = tolerance_a.cwiseMax(options_.rtol * size_a);
-  tolerance_b = tolerance_b.cwiseMax(options_.rtol * size_b / std::sqrt(static_cast<double>(model_.num_dofs())));
-  if (!is_started_) return start(state.t);
-  require(CVodeReInitB(memory_, which_, state.t, adjoint_.get()));
-  require(CVodeSVtolerancesB(memory_, which_, options_.rtol, tolerance_.get()));
+  tolerance_a = tolerance_a.cwiseMax(rtol * size_a);
+  tolerance_b = tolerance_b.cwiseMax(rtol * size_b / std::sqrt(static_cast<double>(model_.num_dofs())));
+  is_started_ ? restart(state.t) : start(state.t);
+}
+
+void BackwardProblem::restart(double t) {
+  require(CVodeReInitB(memory_, which_, t, adjoint_.get()));
+  require(CVodeSVtolerancesB(memory_, which_, kTolerance * options_.rtol, tolerance_.get()));
   require(CVodeQuadReInitB(memory_, which_, integral_.get()));
 }
 
@@ -76,7 +85,7 @@ void BackwardProblem::start(double t) {
       },
       t, adjoint_.get()));
   require(CVodeSetUserDataB(memory_, which_, this));
-  require(CVodeSVtolerancesB(memory_, which_, options_.rtol, tolerance_.get()));
+  require(CVodeSVtolerancesB(memory_, which_, kTolerance * options_.rtol, tolerance_.get()));
   require(CVodeSetMaxOrdB(memory_, which_, max_order_));
   require(CVodeSetMaxNumStepsB(memory_, which_, options_.max_steps));
   placeholder_ = make_placeholder_matrix(context_);
@@ -109,6 +118,17 @@ void BackwardProblem::start(double t) {
         return self_of(user)->products(time, y, y_b, out);
       },
       integral_.get()));
+  set_quadrature_tolerances();
+}
+
+void BackwardProblem::set_quadrature_tolerances() {
+  const bool is_of_position = positions(tolerance_.get()).maxCoeff() > 0;
+  const double size = is_of_position ? scales_.position : scales_.velocity;
+  const OwnedVector absolute(N_VClone(integral_.get()));
+  for (int i = 0; i < equations_.count(); ++i)
+    view(absolute.get())[i] = kTolerance * options_.rtol * size / equations_.scale(i);
+  require(CVodeSetQuadErrConB(memory_, which_, 1));
+  require(CVodeQuadSVtolerancesB(memory_, which_, kTolerance * options_.rtol, absolute.get()));
 }
 
 void BackwardProblem::integrate_to(double t) {
@@ -141,27 +161,41 @@ int BackwardProblem::linearize(double t, N_Vector y, bool keep, double gamma, su
 int BackwardProblem::right_hand_side(N_Vector y, N_Vector y_b, N_Vector y_b_dot, double t) {
   return guarded(callbacks_, [&] {
     const auto a = positions(y_b), b = velocities(y_b);
-    const bool is_new = stiffness_.empty() ||
-                        (!model_.traits().linear && (at_.t != t || at_.q != positions(y) || at_.v != velocities(y)));
-    if (is_new) {
+    if (!is_linearized_) {  // D is constant
       const Measure measure(statistics_.tangent);
-      at_ = {t, positions(y), velocities(y)};
-      model_.linearize(t, at_.q, at_.v, TangentKind::exact, tangent_);
-      const std::size_t entries = model_.pattern().row.size();
-      stiffness_.resize(entries);
-      damping_.resize(entries);
-      model_.combine({0, 0, 1}, tangent_, stiffness_.data());
+      model_.linearize(t, positions(y), velocities(y), TangentKind::exact, tangent_);
+      damping_.resize(model_.pattern().row.size());
       model_.combine({0, 1, 0}, tangent_, damping_.data());
       if (std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0; })) damping_.clear();
+      is_linearized_ = true;
     }
-    model_.multiply_matrix(stiffness_.data(), b, positions(y_b_dot));
-    if (damping_.empty()) velocities(y_b_dot) = -a;
-    else {
-      model_.multiply_matrix(damping_.data(), b, velocities(y_b_dot));
-      velocities(y_b_dot) -= a;
-    }
+    multiply_stiffness(t, y, b, positions(y_b_dot));
+    velocities(y_b_dot).setZero();
+    if (!damping_.empty()) model_.multiply_matrix(damping_.data(), b, velocities(y_b_dot));
+    velocities(y_b_dot) -= a;
     model_.solve_mass(velocities(y_b_dot));
   });
+}
+
+void BackwardProblem::multiply_stiffness(double t, N_Vector y, const ConstVectorRef& b, VectorRef out) {
+  if (model_.traits().linear) {
+    if (stiffness_.empty()) {
+      stiffness_.resize(model_.pattern().row.size());
+      model_.combine({0, 0, 1}, tangent_, stiffness_.data());
+    }
+    return model_.multiply_matrix(stiffness_.data(), b, out);
+  }
+  // Two forces cost less than a tangent.
+  constexpr double kShare = 1e-5;  // of the size of the motion
+  const double largest = b.lpNorm<Eigen::Infinity>();
+  if (largest == 0) return out.setZero(), void();
+  const Measure measure(statistics_.force);
+  const double h = kShare * scales_.position / largest;
+  Vector moved = positions(y) + h * b;
+  model_.force(t, moved, velocities(y), work_);
+  moved = positions(y) - h * b;
+  model_.force(t, moved, velocities(y), out);
+  out = (out - work_) / (2 * h);
 }
 
 int BackwardProblem::products(double t, N_Vector y, N_Vector y_b, N_Vector out) {

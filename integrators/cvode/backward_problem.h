@@ -21,12 +21,14 @@ class BackwardProblem {
  public:
   // `memory`: of CVODES, after a forward integration by CVodeF(). `y`: a vector like the state. All references must
   // outlive this object.
-  BackwardProblem(void* memory, const Model& model, const Options& options, int max_order, double omega,
+  BackwardProblem(void* memory, const Model& model, const Options& options, int max_order, const Scales& scales,
                   AdjointEquations& equations, N_Vector y, CallbackContext& callbacks, Statistics& statistics,
                   SUNContext context);
 
   // Adds the jump at t_k; the first call, for the last t_k, starts the problem.
   void jump(std::size_t k, const State& state);
+  // Begins anew at t, where a load has a kink. Precondition: jump() has been called.
+  void restart(double t);
   // Integrates back to t (s).
   void integrate_to(double t);
 
@@ -34,30 +36,32 @@ class BackwardProblem {
 
  private:
   void start(double t);
+  void set_quadrature_tolerances();
   void require(int flag) const;
   int linearize(double t, N_Vector y, bool keep, double gamma, sunbooleantype* renewed);
   int right_hand_side(N_Vector y, N_Vector y_b, N_Vector y_b_dot, double t);
+  // Computes out = K b at a state of the motion.
+  void multiply_stiffness(double t, N_Vector y, const ConstVectorRef& b, VectorRef out);
   int products(double t, N_Vector y, N_Vector y_b, N_Vector out);
 
   void* memory_;
   const Model& model_;
   const Options& options_;
   int max_order_;  // of BDF
-  double omega_;   // of the motion, rad/s
+  Scales scales_;  // of the motion
   AdjointEquations& equations_;
   CallbackContext& callbacks_;
   Statistics& statistics_;
   SUNContext context_;
   int which_ = -1;
-  bool is_started_ = false;
+  bool is_started_ = false, is_linearized_ = false;
   double gamma_ = 0;
   NewtonMatrix matrix_;
   OwnedVector adjoint_, tolerance_, integral_;
   SolverFunctions functions_;
   OwnedMatrix placeholder_;
   OwnedSolver solver_;
-  State at_;                                 // at which `stiffness_` and `damping_` were computed
-  std::vector<double> stiffness_, damping_;  // entries of K and D; damping empty if it is 0
+  std::vector<double> stiffness_, damping_;  // entries of K, if it is constant, and of D; damping empty if it is 0
   Linearization tangent_;
   Vector work_;
 };

@@ -54,8 +54,13 @@ class Cvode final : public SundialsIntegrator {
     const std::vector<double>& times = equations.times();
     require(CVodeAdjInit(memory(), steps_between_checkpoints(), CV_POLYNOMIAL));
     require(CVodeSetMaxNumSteps(memory(), options_.max_steps));
+    std::vector<double> stops = model_.breakpoints(task.initial.t, times.back());
+    stops.insert(stops.end(), times.begin(), times.end());
+    std::ranges::sort(stops);
+    stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+    std::erase_if(stops, [&](double t) { return t <= task.initial.t || t > times.back(); });
     std::vector<State> states;
-    for (const double end : times) {
+    for (const double end : stops) {
       require(CVodeSetStopTime(memory(), end));
       int checkpoints = 0;
       double t = 0;
@@ -66,11 +71,13 @@ class Cvode final : public SundialsIntegrator {
     AdjointSolution out;
     long forward_steps = 0;
     CVodeGetNumSteps(memory(), &forward_steps);
-    BackwardProblem backward(memory(), model_, options_, method_.max_order, scales_.velocity / scales_.position,
-                             equations, y(), callback_context_, statistics_, context_);
-    for (std::size_t k = times.size(); k-- > 0;) {
-      backward.jump(k, states[k]);
-      backward.integrate_to(k > 0 ? times[k - 1] : task.initial.t);
+    BackwardProblem backward(memory(), model_, options_, method_.max_order, scales_, equations, y(), callback_context_,
+                             statistics_, context_);
+    std::size_t left = times.size();
+    for (std::size_t k = stops.size(); k-- > 0;) {
+      if (left > 0 && times[left - 1] == stops[k]) backward.jump(--left, states[k]);
+      else backward.restart(stops[k]);
+      backward.integrate_to(k > 0 ? stops[k - 1] : task.initial.t);
     }
     out = backward.solution();
     out.forward_steps = forward_steps;

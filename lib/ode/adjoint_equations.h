@@ -1,5 +1,6 @@
 // The adjoint equations of a motion: the derivatives of one number G with respect to many parameters p of the model,
-// for the cost of about one more motion backward in time, whatever the number of parameters.
+// for the cost of one more integration backward in time, whatever the number of parameters. Its steps may be shorter
+// than those of the motion: a source at one point also shakes stiff modes, which last if there is no damping.
 //
 // With M q'' = f(t, q, v, p), K = -df/dq and D = -df/dv, and G = sum over k of g_k(q(t_k), v(t_k)), the adjoint state
 // (a, b) obeys, backward in time,
@@ -32,6 +33,10 @@ class AdjointEquations {
 
   // The number of parameters.
   virtual int count() const = 0;
+
+  // A change of parameter i, for error control: the error of the change of G that follows from it is relative to the
+  // size of the motion.
+  virtual double scale(int i) const = 0;
 
   // Computes b . (df/dp - dM/dp q'') for each parameter at a state of the motion. Throws RecoverableError as
   // Model::force() does.

@@ -153,17 +153,23 @@ class PartMaker {
                            std::move(cells),
                            1,
                            material.density()};
-    if (entry.stiffness_factors) add_grid(part, *entry.stiffness_factors);
+    if (entry.stiffness_factors) add_grid(part, *entry.stiffness_factors, notes);
     else out_.parts.push_back(part);
   }
 
  private:
   // Divides a part into the cells of the grid of factors.
-  void add_grid(const ElasticPart& whole, const StiffnessFactors& factors) {
+  void add_grid(const ElasticPart& whole, const StiffnessFactors& factors, Warnings& notes) {
     const Box box = box_of(*whole.entry, regions_, mesh_);
     const std::vector<double> values = factors.all();
     std::map<int, std::vector<int>> cells;
     for (const int cell : whole.cells) cells[factors.cell_at(centroid(mesh_, cell), box)].push_back(cell);
+    if (const std::size_t empty = values.size() - cells.size(); empty > 0)
+      notes.push_back(
+          fmt::format("{}: {} of {} cells of the grid have no element of '{}'; their factors have no effect. Use a "
+                      "coarser grid or a "
+                      "finer mesh",
+                      factors.origin.where, empty, values.size(), whole.name));
     for (auto& [number, own] : cells) {
       ElasticPart part = whole;
       part.name += fmt::format(".cell_{}", number + 1);

@@ -27,7 +27,9 @@ std::array<int, 3> place_of(const std::array<int, 3>& grid, int cell) {
 
 // Reads columns i, j, k (from 1) and factor; the other columns are those that a fit writes.
 std::vector<double> read_factors(const FilePath& file, const std::array<int, 3>& grid) {
-  const CsvTable table = read_csv(file, {"i", "j", "k", "factor"}, {"x [m]", "y [m]", "z [m]", "low", "high"});
+  const CsvTable table = read_csv_with_gaps(file);
+  for (const char* name : {"i", "j", "k", "factor"})
+    if (!table.has(name)) throw ConfigError(file.path, fmt::format("has no column '{}'", name));
   std::vector<double> values(static_cast<std::size_t>(size_of(grid)), 0);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     std::array<int, 3> at{};

@@ -32,6 +32,7 @@ TRUTH = {
     "soundboard_damping": {"loss of E1": 0.008, "loss of E2": 0.02, "loss of G12": 0.014},
     "wood_five_tests": {"EL": 11.88, "ER": 0.9266, "ET": 0.5108, "nuLR": 0.372, "nuRT": 0.435, "nuLT": 0.467, "GLR": 0.7603,
                         "GRT": 0.03564, "GLT": 0.7247},
+    "knotty_beam": {},
 }
 LONG_FITS = set(TRUTH) - {"off_axis_strip"}
 
@@ -75,6 +76,18 @@ class ShippedFits(unittest.TestCase):
                 for parameter, value in truth.items():
                     one = found[parameter]  # three times the 95 % interval about the value: misses once in 10^8
                     self.assertLess(abs(value - one["value"]), 1.5 * (one["high"] - one["low"]), parameter)
+                if name == "knotty_beam":
+                    self.check_knot(table["fields"][0])
+
+    def check_knot(self, field):
+        """The knot is 180 mm from the left end and 28 mm above the lower edge; the factors are those of cells of 8 x 10 mm."""
+        factors, columns = field["factors"], field["grid"][0]
+        softest = factors.index(min(factors))
+        self.assertLess(abs(8 * (softest % columns + 0.5) - 180), 16)
+        self.assertLess(abs(10 * (softest // columns + 0.5) - 28), 11)
+        self.assertLess(min(factors), 0.7)
+        far = [f for k, f in enumerate(factors) if abs(8 * (k % columns + 0.5) - 180) > 60]
+        self.assertLess(max(abs(f - 1) for f in far), 0.25)
 
 
 if __name__ == "__main__":

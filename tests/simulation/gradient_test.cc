@@ -61,7 +61,7 @@ std::pair<std::vector<std::string>, std::vector<double>> header_and_last_row(con
   return {split(header), values};
 }
 
-const char* const kTight = "integrator: {type: cvode_bdf, rtol: 1e-7}\n";
+const char* const kTight = "integrator: {type: cvode_bdf, rtol: 1e-8}\n";
 
 class GradientOfAMotion : public InFolder {
  protected:
@@ -120,6 +120,14 @@ TEST_F(GradientOfAMotion, IsThatOfForwardSensitivitiesFromEquilibrium) {
   expect_equal(scene, "tip.displacement.y", 1e-3);
 }
 
+// A pulse that is shorter than the steps.
+TEST_F(GradientOfAMotion, IsThatOfForwardSensitivitiesWithAShortPulse) {
+  std::string scene = strip(std::string("elasticity: {kinematics: linear}\ndamping: {stiffness: 2 ms}\n") + kTight);
+  const std::string load = "[[0, 1], [0.05, 1], [0.06, 0]]";
+  scene.replace(scene.find(load), load.size(), "[[0, 0], [0.15, 0], [0.1502, 40], [0.1504, 0]]");
+  expect_equal(scene, "tip.displacement.y", 1e-3);
+}
+
 // The error of the gradient follows rtol.
 TEST_F(GradientOfAMotion, ConvergesWithRtol) {
   const auto at = [](const char* rtol) {
@@ -130,9 +138,9 @@ TEST_F(GradientOfAMotion, ConvergesWithRtol) {
         gradient(Config::from_text(scene, "scene.yaml").resolving(), {"tip.displacement.z", {}, kPaths});
     return found.derivatives[0];
   };
-  const double exact = at("1e-9");
+  const double exact = at("1e-10");
   const double coarse = std::abs(at("1e-3") - exact), fine = std::abs(at("1e-6") - exact);
-  EXPECT_LT(coarse, 0.05 * std::abs(exact));
+  EXPECT_LT(coarse, 0.3 * std::abs(exact));
   EXPECT_LT(fine, 0.05 * coarse);
 }
 

@@ -166,8 +166,7 @@ int check(const CheckArguments& arguments) {
   print_axes(setup);
   print_supports(model);
   fmt::print("terms\n");
-  for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
-  for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
+  for (const std::string& description : term_descriptions(parts)) fmt::print("  {}\n", description);
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");

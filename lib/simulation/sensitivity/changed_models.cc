@@ -11,6 +11,7 @@
 #include "lib/core/spelling.h"
 #include "lib/mesh/selection.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/sensitivity/stiffness_cell.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
@@ -146,6 +147,7 @@ std::vector<SceneParameter> model_parameters(const Config& scene, const std::vec
 }
 
 void require_changeable(const Config& scene, const SceneParameter& parameter) {
+  if (StiffnessCell::is_path(parameter.path())) return;  // any positive value is allowed
   require_unrepaired(scene, parameter.path());
   step_of(scene, parameter, ChangeCount::four);
 }

@@ -99,10 +99,10 @@ Eigen::MatrixXd form_of(const Modes& modes, const Cluster& cluster, const Form& 
 // d/dp of phi_i . (K - omega^2 M) phi_j, with the modes and omega as they are.
 class DerivativeOfForm {
  public:
-  DerivativeOfForm(const Config& scene, const FemModel& model, double t, const Modes& modes,
+  DerivativeOfForm(const Config& config, const Scene& scene, const FemModel& model, double t, const Modes& modes,
                    const SceneParameter& parameter)
-      : model_(model), t_(t), modes_(modes), cell_(StiffnessCell::find(parameter.path(), read_scene(scene), model)) {
-    if (!cell_) changed_models_.emplace(scene, model, parameter);
+      : model_(model), t_(t), modes_(modes), cell_(StiffnessCell::find(parameter.path(), scene, model)) {
+    if (!cell_) changed_models_.emplace(config, model, parameter);
   }
 
   Eigen::MatrixXd of(const Cluster& cluster) const {
@@ -126,9 +126,9 @@ class DerivativeOfForm {
 };
 
 // `count`: number of modes whose derivatives are wanted; `modes` may have more.
-FrequencySensitivity sensitivity(const Config& scene, const FemModel& model, double t, const Modes& modes,
-                                 std::size_t count, const SceneParameter& parameter) {
-  const DerivativeOfForm derivative(scene, model, t, modes, parameter);
+FrequencySensitivity sensitivity(const Config& config, const Scene& scene, const FemModel& model, double t,
+                                 const Modes& modes, std::size_t count, const SceneParameter& parameter) {
+  const DerivativeOfForm derivative(config, scene, model, t, modes, parameter);
   FrequencySensitivity out{parameter, std::vector<double>(count, std::numeric_limits<double>::quiet_NaN())};
   for (const Cluster& cluster : clusters_of(modes)) {
     if (cluster.first >= count) break;
@@ -167,8 +167,9 @@ std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, c
   std::vector<FrequencySensitivity> out;
   if (parameters.empty()) return out;
   const Modes whole = with_whole_clusters(model, rest, modes);
+  const Scene read = read_scene(scene);
   for (const SceneParameter& parameter : parameters)
-    out.push_back(sensitivity(scene, model, rest.t, whole, modes.modes.size(), parameter));
+    out.push_back(sensitivity(scene, read, model, rest.t, whole, modes.modes.size(), parameter));
   return out;
 }
 

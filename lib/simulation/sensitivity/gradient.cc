@@ -65,15 +65,16 @@ std::vector<SceneParameter> parameters_at(const Config& config, const std::vecto
     if (!value.has("values")) value.fail("factors from a file are no parameters; give them as 'values'");
     for (std::size_t k = 0; k < value.at("values").size(); ++k) all.push_back(fmt::format("{}.values.{}", path, k));
   }
-  if (all.empty()) throw ConfigError("parameters", "name at least one number of the scene");
+  if (all.empty()) throw ConfigError("gradient", "name at least one number of the scene (--by PATH)");
   return model_parameters(config, all, {"parameters"});
 }
 
 // G = the unknown at one time.
 class Equations final : public AdjointEquations {
  public:
-  Equations(const ProbedUnknown& unknown, double t, ParameterProducts& products)
-      : unknown_(unknown), times_{t}, products_(products) {}
+  Equations(const ProbedUnknown& unknown, double t, ParameterProducts& products,
+            const std::vector<SceneParameter>& parameters)
+      : unknown_(unknown), times_{t}, products_(products), parameters_(parameters) {}
 
   const std::vector<double>& times() const override { return times_; }
   void source(std::size_t, const State& state, VectorRef by_position, VectorRef by_velocity) override {
@@ -83,6 +84,8 @@ class Equations final : public AdjointEquations {
     value = unknown_.of(state);
   }
   int count() const override { return products_.count(); }
+  // 10 % of the parameter; 10 degrees of an angle.
+  double scale(int i) const override { return 10 * parameters_[static_cast<std::size_t>(i)].usual_change(); }
   void products(const State& state, const ConstVectorRef& b, VectorRef out) override {
     products_.compute(state, b, out);
   }
@@ -93,6 +96,7 @@ class Equations final : public AdjointEquations {
   ProbedUnknown unknown_;
   std::vector<double> times_;
   ParameterProducts& products_;
+  const std::vector<SceneParameter>& parameters_;
 };
 
 void require_adjoint(const Setup& setup) {
@@ -148,14 +152,15 @@ Vector adjoint_of_equilibrium(const Setup& setup, const Vector& a) {
   return out;
 }
 
-Gradient of_motion(const Setup& setup, const ProbedUnknown& unknown, double t, ParameterProducts& products) {
+Gradient of_motion(const Setup& setup, const ProbedUnknown& unknown, double t, ParameterProducts& products,
+                   const std::vector<SceneParameter>& parameters) {
   const auto* method = dynamic_cast<const AdjointIntegrator*>(setup.scene.integrator.get());
   if (!method)
     throw ConfigError("gradient", "adjoint equations are integrated by cvode_bdf: set integrator.type to it");
   if (setup.scene.start == Start::equilibrium && (setup.scene.initial || !setup.scene.motions.empty()))
     throw ConfigError("start",
                       "equilibrium with 'initial' or 'motions' is not available for gradients: use sensitivities");
-  Equations equations(unknown, t, products);
+  Equations equations(unknown, t, products, parameters);
   const Task task = task_of(setup.scene, setup.built);
   const AdjointSolution solution = method->integrate_adjoint(*setup.built.model, task, equations);
   Gradient found;
@@ -190,7 +195,7 @@ Gradient gradient(const Config& config, const GradientRequest& request) {
   const auto parameters = parameters_at(setup.config, request.paths);
   ParameterProducts products(setup.config, scene, setup.built, parameters);
   Gradient found =
-      scene.is_static() ? of_equilibrium(setup, unknown, products) : of_motion(setup, unknown, t, products);
+      scene.is_static() ? of_equilibrium(setup, unknown, products) : of_motion(setup, unknown, t, products, parameters);
   found.unit = unknown.is_velocity ? "m/s" : "m";
   found.parameters = parameters;
   return found;

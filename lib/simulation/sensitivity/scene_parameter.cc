@@ -88,9 +88,13 @@ double SceneParameter::usual_change() const { return is_angle_ ? std::numbers::p
 
 Config SceneParameter::changed(const Config& scene, double change) const {
   Config copy = scene.copy();
-  copy.set_yaml(path_, fmt::format("{:.17g}{}{}", number_ + change / factor_, unit_.empty() ? "" : " ", unit_),
-                "derivative with respect to " + path_);
+  this->change(copy, change);
   return copy;
+}
+
+void SceneParameter::change(Config& scene, double change) const {
+  scene.set_yaml(path_, fmt::format("{:.17g}{}{}", number_ + change / factor_, unit_.empty() ? "" : " ", unit_),
+                 "derivative with respect to " + path_);
 }
 
 }  // namespace orthodyn

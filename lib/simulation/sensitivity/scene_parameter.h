@@ -31,6 +31,8 @@ class SceneParameter {
 
   // The scene with this parameter larger by `change` (SI units). The scene is not changed.
   Config changed(const Config& scene, double change) const;
+  // Changes the parameter of the scene itself.
+  void change(Config& scene, double change) const;
 
  private:
   std::string path_, unit_;

@@ -8,10 +8,19 @@
 
 namespace orthodyn {
 
+namespace {
+
+constexpr std::string_view kBefore = "regions.", kBetween = ".stiffness_factors.values.";
+
+}  // namespace
+
+bool StiffnessCell::is_path(const std::string& path) {
+  return path.starts_with(kBefore) && path.find(kBetween) != std::string::npos;
+}
+
 std::optional<StiffnessCell> StiffnessCell::find(const std::string& path, const Scene& scene, const FemModel& model) {
-  constexpr std::string_view kBefore = "regions.", kBetween = ".stiffness_factors.values.";
+  if (!is_path(path)) return {};
   const auto between = path.find(kBetween);
-  if (!path.starts_with(kBefore) || between == std::string::npos) return {};
   const std::string region = path.substr(kBefore.size(), between - kBefore.size());
   int cell = -1;
   const char* const number = path.data() + between + kBetween.size();
@@ -27,7 +36,6 @@ std::optional<StiffnessCell> StiffnessCell::find(const std::string& path, const 
     for (const int element : own.cells)
       for (const int node : model.parts().mesh.cells[static_cast<std::size_t>(element)]) nodes.insert(node);
   }
-  if (terms.empty()) return {};
   return StiffnessCell(model, std::move(terms), {nodes.begin(), nodes.end()}, factor);
 }
 

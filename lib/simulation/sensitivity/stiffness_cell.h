@@ -15,9 +15,13 @@ namespace orthodyn {
 
 class StiffnessCell {
  public:
-  // The cell of the parameter at the path "regions.NAME.stiffness_factors.values.K"; empty for other paths and for
-  // cells without elements. The model must outlive the result.
+  // The cell of the parameter at the path "regions.NAME.stiffness_factors.values.K"; empty for other paths. A cell
+  // without elements has derivatives of 0. Preconditions: the scene has a number at the path; the model outlives the
+  // result.
   static std::optional<StiffnessCell> find(const std::string& path, const Scene& scene, const FemModel& model);
+
+  // Whether the path has this form.
+  static bool is_path(const std::string& path);
 
   // Derivative of the force on the free coordinates, N.
   Vector force(const State& state) const;

@@ -6,7 +6,6 @@
 // and the prior of Bayesian inversion with a Gaussian Markov random field (Rue & Held 2005).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +22,11 @@ struct ParameterField {
   Box box;  // of the region, m
   double smoothness = 0;
 
-  std::size_t size() const { return factors.all().size(); }
+  std::size_t size() const {
+    std::size_t cells = 1;
+    for (const int count : factors.grid) cells *= static_cast<std::size_t>(count);
+    return cells;
+  }
   // Indices of neighbouring parameters of the problem.
   std::vector<std::pair<std::size_t, std::size_t>> neighbours() const;
 };

@@ -58,7 +58,7 @@ std::string field_csv(const Json& field) {
   const auto& grid = factors.grid;
   const auto shown = [&](const char* key, std::size_t cell) {
     const Json& value = field.at(key).at(cell);
-    return value.is_null() ? std::string("nan") : fmt::format("{:.8g}", value.get<double>());
+    return value.is_null() ? std::string() : fmt::format("{:.8g}", value.get<double>());
   };
   std::string out = "i,j,k,x [m],y [m],z [m],factor,low,high\n";
   for (std::size_t cell = 0; cell < field.at("factors").size(); ++cell) {
@@ -75,12 +75,14 @@ std::string field_sentence(const Result& result, const ParameterField& field) {
   const auto all = estimates_of(result, field);
   const auto [smallest, largest] = std::ranges::minmax_element(all, {}, &Estimate::value);
   const auto [sharpest, widest] = std::ranges::minmax_element(all, {}, &Estimate::deviation_z);
-  return fmt::format(
-      "{}: {} factors from {:.3g} at {} to {:.3g} at {}. Given the smoothness, their 95 % intervals are ±{:.2g} % to "
-      "±{:.2g} %.",
-      field.name, all.size(), smallest->value, place_of(field, static_cast<std::size_t>(smallest - all.begin())),
-      largest->value, place_of(field, static_cast<std::size_t>(largest - all.begin())), 100 * half_width(*sharpest),
-      100 * half_width(*widest));
+  const std::string range =
+      fmt::format("{}: {} factors from {:.3g} at {} to {:.3g} at {}", field.name, all.size(), smallest->value,
+                  place_of(field, static_cast<std::size_t>(smallest - all.begin())), largest->value,
+                  place_of(field, static_cast<std::size_t>(largest - all.begin())));
+  if (!std::isfinite(half_width(*widest)))
+    return range + ". The data do not determine their level: fix the moduli of the region, or give the field a prior.";
+  return fmt::format("{}. Given the smoothness, their 95 % intervals are ±{:.2g} % to ±{:.2g} %.", range,
+                     100 * half_width(*sharpest), 100 * half_width(*widest));
 }
 
 std::vector<std::string> field_warnings(const Result& result, const ParameterField& field) {

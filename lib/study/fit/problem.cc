@@ -41,7 +41,7 @@ void require_parameter(const Config& scene, const std::string& path, const Sourc
   }
 }
 
-// Throws ConfigError if two parameters have the same path.
+// Throws ConfigError if two parameters have the same path, or one the path of a section and the other one in it.
 void require_different_paths(const Fit& fit) {
   std::map<std::string, std::string> known;
   for (const auto& [name, parameter] : fit.parameters) {
@@ -51,6 +51,12 @@ void require_different_paths(const Fit& fit) {
       if (const auto [other, is_new] = known.emplace(path, name); !is_new)
         parameter.origin.fail(fmt::format("'{}' is also the path of the parameter '{}'", path, other->second));
   }
+  for (const auto& [path, name] : known)
+    for (const auto& [inner, other] : known)
+      if (inner.starts_with(path + "."))
+        fit.origin.fail(
+            fmt::format("'{}', the path of the parameter '{}', is a part of '{}', that of '{}': leave out one of them",
+                        inner, other, path, name));
 }
 
 }  // namespace
@@ -61,6 +67,8 @@ Problem::Problem(const Fit& fit) : limits_(fit.limits) {
   prepare(fit.candidates, true);
   for (const auto& [name, parameter] : fit.parameters) add_parameter(name, parameter);
   add_nuisances(fit);
+  if (fit.intervals == Intervals::profile && single_parameters().empty())
+    fit.origin.fail("intervals: profile is for single parameters, and this fit has only a field; remove it");
   std::vector<PathOfParameter> paths;
   for (std::size_t p = 0; p < parameters_.size(); ++p)
     for (const std::string& path : parameters_[p].paths)
@@ -92,8 +100,14 @@ void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates)
 namespace {
 
 // Throws ConfigError for keys that a field does not have, and for data that are not computed with fields.
-void check_field(const Parameter& parameter, const std::vector<PreparedExperiment>& experiments) {
+void check_field(const std::string& name, const Parameter& parameter,
+                 const std::vector<PreparedExperiment>& experiments) {
   const SourceLocation& origin = parameter.origin;
+  if (name == "data" || name == "parameters" || name.find_first_of("/\\") != std::string::npos || name.starts_with("."))
+    origin.fail(
+        fmt::format("the factors are written to '{}.csv': give the field another name, without / and a leading "
+                    "full stop, and not data or parameters",
+                    name));
   if (!parameter.smoothness)
     origin.fail(
         "key 'smoothness' is missing: the standard deviation of the logarithm of the ratio of neighbouring factors, "
@@ -102,7 +116,8 @@ void check_field(const Parameter& parameter, const std::vector<PreparedExperimen
   if (parameter.scale) origin.fail("'scale' has no effect on a field, whose factors are searched by their logarithms");
   for (const PreparedExperiment& experiment : experiments)
     for (const Datum& datum : experiment.data)
-      if (is_field(parameter.path, experiment.scene) && (datum.metric.at || !datum.has_derivatives))
+      if (is_field(parameter.path, experiment.scene) &&
+          (datum.metric.at || has_value_at(experiment.scene, "harmonic") || !datum.has_derivatives))
         origin.fail(
             fmt::format("a field can be fitted to quantities in equilibrium and to natural frequencies; '{}' of "
                         "experiment '{}' is neither",
@@ -120,7 +135,7 @@ std::vector<std::size_t> Problem::single_parameters() const {
 }
 
 void Problem::add_field(const std::string& name, const Parameter& parameter, const Config& scene) {
-  check_field(parameter, experiments_);
+  check_field(name, parameter, experiments_);
   for (PreparedExperiment& experiment : experiments_)
     if (is_field(parameter.path, experiment.scene)) fill_values(parameter.path, experiment.scene);
   ParameterField field = read_field(parameter.path, scene);
@@ -139,7 +154,10 @@ void Problem::add_field(const std::string& name, const Parameter& parameter, con
     if (parameter.prior) {
       fitted.prior = si_value(parameter.prior->value, "");
       fitted.deviation = si_value(parameter.prior->deviation, "");
+      if (!(*fitted.deviation > 0)) parameter.origin.fail("prior: the deviation must be positive");
     }
+    if (fitted.lower && fitted.upper && !(*fitted.lower < *fitted.upper))
+      parameter.origin.fail("'lower' must be below 'upper'");
     if (!(fitted.start > 0) || fitted.lower.value_or(1) <= 0 || fitted.upper.value_or(1) <= 0)
       parameter.origin.fail("stiffness factors are positive: give a positive start, lower and upper");
     if (fitted.start < fitted.lower.value_or(fitted.start) || fitted.start > fitted.upper.value_or(fitted.start))
@@ -258,7 +276,7 @@ Config Problem::scene_with(const PreparedExperiment& experiment, const Vector& v
   for (std::size_t p = 0; p < parameters_.size(); ++p)
     for (const std::string& path : experiment.paths[p]) {
       const SceneParameter parameter(scene, path);
-      scene = parameter.changed(scene, values[static_cast<Eigen::Index>(p)] - parameter.value());
+      parameter.change(scene, values[static_cast<Eigen::Index>(p)] - parameter.value());
     }
   return scene;
 }

@@ -251,7 +251,9 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result) 
           fmt::format("the profile of {} found a smaller chi-square ({:.4g}): the search ended in a false "
                       "minimum, so give another start or starts: 10",
                       problem.parameters()[profile.parameter].name, profile.least_chi_square));
-  if (noise.freedom == 0)
+  if (noise.freedom == 0 && !problem.fields().empty())
+    out.push_back("the data are as few as the factors that they determine, so the fit cannot be tested");
+  else if (noise.freedom == 0)
     out.push_back("there are as many parameters as measured values, so the fit cannot be tested: measure more");
   for (const ParameterField& field : problem.fields())
     for (std::string& warning : field_warnings(result, field)) out.push_back(std::move(warning));

@@ -23,7 +23,7 @@ struct Result {
   std::size_t best = 0;  // index of the attempt with the least cost
   Statistics statistics;
   std::vector<ProfileInterval> profiles;  // empty unless wanted
-  std::optional<Vector> shift;  // of the parameters by a refinement of the meshes, SI
+  std::optional<Vector> shift;            // of the parameters by a refinement of the meshes, SI
   std::string refinement_failure;
   std::vector<CandidateValue> candidates;
   std::string candidates_failure;

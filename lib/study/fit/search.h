@@ -9,7 +9,8 @@
 
 namespace orthodyn::study::fit {
 
-// What the fit minimises. Residuals are (computed - measured) / deviation, of the data and then of the priors.
+// What the fit minimises. Residuals are (computed - measured) / deviation, of the data, the priors and the smoothness
+// of fields, in this order.
 struct Residuals {
   Eigen::VectorXd values;
   Eigen::MatrixXd derivatives;  // d residual / d z; empty if not computed
@@ -45,8 +46,9 @@ struct Search {
   std::size_t evaluations = 0, failed_evaluations = 0;
 };
 
-// Searches from z. `on_iteration` is called after each iteration. `fixed`: a parameter whose coordinate is kept. Throws Failed if the data cannot be computed at the
-// start, ConfigError if a parameter changes no datum, RunError if this build has no Ceres; Interrupted.
+// Searches from z. `on_iteration` is called after each iteration. `fixed`: a parameter whose coordinate is kept. Throws
+// Failed if the data cannot be computed at the start, ConfigError if a parameter changes no datum, RunError if this
+// build has no Ceres; Interrupted.
 Search search(const Problem& problem, const Fit& fit, const Vector& start, const JobOptions& options,
               const std::function<void(const Iteration&)>& on_iteration, std::optional<std::size_t> fixed = {});
 

@@ -8,7 +8,7 @@ from . import numbers
 
 def outcome(attempt):
     """'converged', or why not."""
-    if not attempt.end:
+    if attempt.failure:
         return attempt.failure or "failed"
     return "converged" if attempt.converged else attempt.message or "not converged"
 
@@ -26,7 +26,7 @@ def _row(fit, index):
     evaluations = formatting.count(attempt.evaluations) + (f", {failed:.0f} failed" if failed > 0 else "")
     return tag("tr", tag("th", name, scope="row"), number(numbers.brief(attempt.chi_square)), number(iterations),
                number(evaluations), tag("td", outcome(attempt), class_="message"), *values,
-               class_=None if attempt.end else "failed")
+               class_="failed" if attempt.failure else None)
 
 
 def attempts_table(fit):
@@ -45,7 +45,7 @@ def tip(fit, index, iteration):
 
 
 def search_words(fit):
-    failed = sum(not a.end for a in fit.attempts)
+    failed = sum(bool(a.failure) for a in fit.attempts)
     hollow = " Hollow marks are steps that were rejected." if any(
         not i.accepted for a in fit.attempts for i in a.iterations) else ""
     words = ("Chi-square is the sum of the squared residuals over their deviations, with those of the priors. It should "
