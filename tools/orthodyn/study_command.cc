@@ -58,7 +58,7 @@ void declare_study(StudyArguments& arguments, CommandOptions& options, const Stu
                fmt::format("Compute {} that failed in an earlier run again.", words.pieces));
   options.flag("--quiet", arguments.quiet, "Print warnings and errors only.");
   options.flag("--no-report", arguments.no_report,
-               fmt::format("Write {0}.json and {0}.csv, but no HTML report.", words.table));
+               fmt::format("Write {}.json and the tables, but no HTML report.", words.table));
 }
 
 void declare_yes(StudyArguments& arguments, CommandOptions& options) {

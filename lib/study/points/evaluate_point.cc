@@ -263,7 +263,9 @@ class Evaluation {
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.metrics.size(); ++q)
       keep(wanted.metrics[q]->first, wanted.quantity(q).values(observed)[0], wanted.quantity(q).unit);
+    const Stopwatch of_derivatives;
     find_derivatives(setup, *problem.path, state, wanted);
+    if (!input_.parameters.empty()) result_.cost->cpu_seconds += of_derivatives.cpu();
     MeshErrorRecorder mesh_error(0);
     if (input_.mesh_error) mesh_error.observe(observed);
     keep(mesh_error);

@@ -44,11 +44,9 @@ def _fields(fit, figures):
 
 
 def _knowledge(fit, figures):
-    if fit.fields and len(fit.parameters) < 2:
-        return _fields(fit, figures)
     if len(fit.parameters) < 2:
         return tag("p", "The fit has a single parameter, so there are no correlations.", class_="empty")
-    return joined([_fields(fit, figures), _figure(figures.correlation(fit), CORRELATION, "Correlation"),
+    return joined([_figure(figures.correlation(fit), CORRELATION, "Correlation"),
                    _figure(figures.directions(fit), COMBINATIONS, "Combinations")])
 
 
@@ -71,8 +69,10 @@ def _details(fit, folder):
 
 
 def _parts(fit, folder, figures):
-    parts = [("answer", "Result", answer(fit)), ("data", "Data and fit", data_tables.data_section(fit, figures)),
-             ("knowledge", "What the data determine", _knowledge(fit, figures))]
+    result = joined([answer(fit), _fields(fit, figures)]) if fit.fields else answer(fit)
+    parts = [("answer", "Result", result), ("data", "Data and fit", data_tables.data_section(fit, figures))]
+    if fit.parameters:
+        parts.append(("knowledge", "What the data determine", _knowledge(fit, figures)))
     if fit.candidates:
         parts.append(("next", "What to measure next", candidates_section(fit)))
     parts.append(("search", "Search", _search(fit, figures)))
