@@ -55,21 +55,20 @@ void BackwardProblem::jump(std::size_t k, const State& state) {
   model_.solve_mass(b);
   positions(adjoint_.get()) += by_position;
   velocities(adjoint_.get()) += b;
-  const double omega = scales_.velocity / scales_.position, rtol = kTolerance * options_.rtol;
-  // Sizes of a and of b: a force on one unknown has the first size, and the slow motion that an impulse of this size
-  // gives to the whole body has the second one.
-  const Vector one = Vector::Ones(model_.num_dofs());
-  model_.multiply_mass(one, work_);
+  // Root mean squares over all unknowns: a force on one of them that has the frequency of the motion, and the impulse
+  // of this force on one unknown of mean mass.
+  const auto n = static_cast<double>(model_.num_dofs());
+  const double omega = scales_.velocity / scales_.position;
   const double impulse = by_position.lpNorm<1>() / omega + by_velocity.lpNorm<1>();
-  const double size_b = impulse / work_.sum() * static_cast<double>(model_.num_dofs());
-  const double size_a = omega * impulse / std::sqrt(static_cast<double>(model_.num_dofs()));
-  auto tolerance_a = positions(tolerance_.get()), tolerance_b = velocities(tolerance_.get());
-  tolerance_a = tolerance_a.cwiseMax(rtol * size_a);
-  tolerance_b = tolerance_b.cwiseMax(rtol * size_b / std::sqrt(static_cast<double>(model_.num_dofs())));
+  model_.multiply_mass(Vector::Ones(model_.num_dofs()), work_);
+  const double mean_mass = work_.sum() / n, share = kTolerance * options_.rtol / std::sqrt(n);
+  positions(tolerance_.get()) = positions(tolerance_.get()).cwiseMax(share * omega * impulse);
+  velocities(tolerance_.get()) = velocities(tolerance_.get()).cwiseMax(share * impulse / mean_mass);
   is_started_ ? restart(state.t) : start(state.t);
 }
 
 void BackwardProblem::restart(double t) {
+  steps_ += steps_of_library();
   require(CVodeReInitB(memory_, which_, t, adjoint_.get()));
   require(CVodeSVtolerancesB(memory_, which_, kTolerance * options_.rtol, tolerance_.get()));
   require(CVodeQuadReInitB(memory_, which_, integral_.get()));
@@ -145,9 +144,14 @@ AdjointSolution BackwardProblem::solution() {
   out.a = positions(adjoint_.get());
   out.momentum.resize(model_.num_dofs());
   model_.multiply_mass(velocities(adjoint_.get()), out.momentum);
-  void* const own = CVodeGetAdjCVodeBmem(memory_, which_);
-  if (own) CVodeGetNumSteps(own, &out.backward_steps);
+  out.backward_steps = steps_ + steps_of_library();
   return out;
+}
+
+long BackwardProblem::steps_of_library() const {
+  long steps = 0;
+  if (void* const own = CVodeGetAdjCVodeBmem(memory_, which_)) CVodeGetNumSteps(own, &steps);
+  return steps;
 }
 
 int BackwardProblem::linearize(double t, N_Vector y, bool keep, double gamma, sunbooleantype* renewed) {

@@ -38,6 +38,7 @@ class BackwardProblem {
   void start(double t);
   void set_quadrature_tolerances();
   void require(int flag) const;
+  long steps_of_library() const;  // since the last restart
   int linearize(double t, N_Vector y, bool keep, double gamma, sunbooleantype* renewed);
   int right_hand_side(N_Vector y, N_Vector y_b, N_Vector y_b_dot, double t);
   // Computes out = K b at a state of the motion.
@@ -55,6 +56,7 @@ class BackwardProblem {
   SUNContext context_;
   int which_ = -1;
   bool is_started_ = false, is_linearized_ = false;
+  long steps_ = 0;  // before the last restart
   double gamma_ = 0;
   NewtonMatrix matrix_;
   OwnedVector adjoint_, tolerance_, integral_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "integrators/cvode/backward_problem.h"
+#include "integrators/run_checks.h"
 #include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
@@ -22,6 +23,14 @@ constexpr LibraryCalls kCvodeCalls = [] {
   calls.set_tangent_interval = CVodeSetJacEvalFrequency;
   return calls;
 }();
+
+// All numbers of both lists, ascending.
+std::vector<double> united(std::vector<double> a, const std::vector<double>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  std::ranges::sort(a);
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
+}
 
 struct FreeCvode {
   void operator()(void* memory) const { CVodeFree(&memory); }
@@ -50,36 +59,35 @@ class Cvode final : public SundialsIntegrator {
 
   // Integrates from the task's start to the last time of the equations, and the adjoint equations back.
   AdjointSolution integrate_adjoint(const Task& task, AdjointEquations& equations) {
+    if (options_.is_full())
+      throw ConfigError("integrator.linear_solver", "klu_full is not available for adjoint equations: use klu or auto");
     start(task.initial);
     const std::vector<double>& times = equations.times();
+    const double begin = task.initial.t, end = times.back();
+    const StepLimits limits = model_.step_limits(begin, end);
+    std::vector<double> kinks = model_.breakpoints(begin, end);
+    std::erase_if(kinks, [&](double t) { return t <= begin || t >= end; });
+    std::vector<double> stops = united(times, kinks);
     require(CVodeAdjInit(memory(), steps_between_checkpoints(), CV_POLYNOMIAL));
-    require(CVodeSetMaxNumSteps(memory(), options_.max_steps));
-    std::vector<double> stops = model_.breakpoints(task.initial.t, times.back());
-    stops.insert(stops.end(), times.begin(), times.end());
-    std::ranges::sort(stops);
-    stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
-    std::erase_if(stops, [&](double t) { return t <= task.initial.t || t > times.back(); });
     std::vector<State> states;
-    for (const double end : stops) {
-      require(CVodeSetStopTime(memory(), end));
-      int checkpoints = 0;
-      double t = 0;
-      callback_context_ = {};
-      finish(CVodeF(memory(), end, y(), &t, CV_NORMAL, &checkpoints));
+    long forward_steps = 0;
+    for (double t = begin; const double stop : stops) {
+      while (t < stop) forward_step(std::min(stop, limits.latest_end(t)), ++forward_steps, t);
       states.push_back({t, positions(y()), velocities(y())});
     }
-    AdjointSolution out;
-    long forward_steps = 0;
-    CVodeGetNumSteps(memory(), &forward_steps);
     BackwardProblem backward(memory(), model_, options_, method_.max_order, scales_, equations, y(), callback_context_,
                              statistics_, context_);
+    std::vector<double> ends = united(limits.ends(), {});
     std::size_t left = times.size();
     for (std::size_t k = stops.size(); k-- > 0;) {
       if (left > 0 && times[left - 1] == stops[k]) backward.jump(--left, states[k]);
       else backward.restart(stops[k]);
-      backward.integrate_to(k > 0 ? stops[k - 1] : task.initial.t);
+      const double before = k > 0 ? stops[k - 1] : begin;
+      for (; !ends.empty() && ends.back() > before; ends.pop_back())
+        if (ends.back() < stops[k]) backward.integrate_to(ends.back());
+      backward.integrate_to(before);
     }
-    out = backward.solution();
+    AdjointSolution out = backward.solution();
     out.forward_steps = forward_steps;
     return out;
   }
@@ -91,6 +99,16 @@ class Cvode final : public SundialsIntegrator {
     constexpr double kMemory = 5e8;  // bytes
     constexpr long kFewest = 20, kMost = 10000;
     return std::clamp(static_cast<long>(kMemory / (static_cast<double>(size()) * sizeof(double))), kFewest, kMost);
+  }
+
+  // Takes a step, which ends at `stop` at the latest, and keeps its data for the adjoint equations. `count`: of the
+  // steps.
+  void forward_step(double stop, long count, double& t) {
+    if (count > options_.max_steps) throw too_many_steps_error(method_.name, t, count - 1, "integrator.rtol");
+    callback_context_ = {};
+    require(CVodeSetStopTime(memory(), stop));
+    int checkpoints = 0;
+    finish(CVodeF(memory(), stop, y(), &t, CV_ONE_STEP, &checkpoints));
   }
 
   void* memory() const override { return memory_.get(); }
