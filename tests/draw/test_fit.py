@@ -205,6 +205,30 @@ class OfAFit(OfAComparison):
                                directions=[{"deviation": 0.01, "weights": [1.0]}], attempts=[])
         self.assertIn("single parameter", page.text)
 
+    def page_of_field(self, **changes):
+        """A fit of 3 x 1 x 2 factors alone."""
+        field = {"name": "stiffness", "path": "regions.body.stiffness_factors", "grid": [3, 1, 2], "smoothness": 0.2,
+                 "min": [0, 0, 0], "max": [0.3, 0.02, 0.1], "start": 1, "factors": [1, 0.5, 1.2, 1, 0.6, 1],
+                 "low": [0.9] * 6, "high": [1.1] * 6, **changes}
+        none = attempt([], iterations=[], start=[])
+        return self.page_of(parameters=[], correlation=[], directions=[], candidates=[], attempts=[none], best=0, fields=[field])
+
+    def test_a_field_is_a_map_under_the_result(self):
+        text, page = self.page_of_field()
+        self.assertIn("stiffness: factors from 0.5 to 1.2 on a grid of 3 x 1 x 2 cells.", text)
+        self.assertIn("z [mm]", text)  # upward in the map: the grid has one cell along y
+        self.assertIn("6 parameters", text)
+        self.assertLess(text.index("a grid of 3 x 1 x 2 cells"), text.index("Data and fit</h2>"))
+        self.assertNotIn("What the data determine</h2>", text)
+        self.assertIn("converged", text)
+        self.assertNotIn("attempt failed", text)
+
+    def test_a_field_that_the_data_do_not_determine_has_no_map_of_intervals(self):
+        text, _ = self.page_of_field()
+        self.assertIn("half of the 95 % interval", text)
+        text, _ = self.page_of_field(low=[None] * 6, high=[None] * 6)
+        self.assertNotIn("half of the 95 % interval", text)
+
     def test_materials_are_ready_to_paste(self):
         text, page = self.page_of()
         self.assertIn("<pre><code>type: orthotropic\nyoung: [11 GPa, 1 GPa, 1 GPa]</code></pre>", text)
