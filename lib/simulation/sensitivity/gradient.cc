@@ -192,8 +192,9 @@ Gradient gradient(const Config& config, const GradientRequest& request) {
   if (!scene.is_static() && !(t > scene.time.start && t <= scene.time.end))
     throw ConfigError("gradient", fmt::format("the time {} s is outside of the time span, {} to {} s", t,
                                               scene.time.start, scene.time.end));
-  const auto parameters = parameters_at(setup.config, request.paths);
-  ParameterProducts products(setup.config, scene, setup.built, parameters);
+  const Config chosen = with_chosen_kinematics(setup.config);
+  const auto parameters = parameters_at(chosen, request.paths);
+  ParameterProducts products(chosen, scene, setup.built, parameters);
   Gradient found =
       scene.is_static() ? of_equilibrium(setup, unknown, products) : of_motion(setup, unknown, t, products, parameters);
   found.unit = unknown.is_velocity ? "m/s" : "m";
