@@ -3,8 +3,7 @@
 //
 //   M s'' = -K s - D s' + g,   g = df/dp - (dM/dp) q'',   K = -df/dq,   D = -df/dv
 //
-// Units: for a mechanical model, s is in m and s' in m/s, per SI unit of the parameter; all other units are those of
-// Model.
+// Units: for a mechanical model, s is in m and s' in m/s, per SI unit of the parameter. Model gives all other units.
 //
 // Source: Maly & Petzold (1996), Appl. Numer. Math. 20, 57-79.
 #pragma once

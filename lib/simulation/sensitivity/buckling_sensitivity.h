@@ -5,9 +5,9 @@
 //     d lambda/dp = lambda phi . (dK/dp + lambda dK_g/dp) phi,
 //
 // in which the change of the shape has no part. dK_g/dp includes the change of the prebuckling state u(p), with
-// K du/dp = df/dp - dK/dp u, and that of the shape without loads; all parameters share one factor of K. For modes of
-// equal load factor the derivatives are the eigenvalues of lambda phi_i . (dK/dp + lambda dK_g/dp) phi_j, in ascending
-// order (the formulas of Nelson 1976, AIAA J. 14, 1201, with M replaced by -K_g).
+// K du/dp = df/dp - dK/dp u, and the change of the shape without loads. All parameters share one factor of K. For modes
+// of equal load factor the derivatives are the eigenvalues of lambda phi_i . (dK/dp + lambda dK_g/dp) phi_j, in
+// ascending order (the formulas of Nelson 1976, AIAA J. 14, 1201, with M replaced by -K_g).
 //
 // The derivatives of the matrices are differences between changed models (changed_models.h). No eigenproblem and no
 // prebuckling state of a changed scene is solved.

@@ -9,10 +9,10 @@
 // the derivative is then of the order of harmonic.rtol, relative to the product of the norms of w and dZ/dp x. This is
 // the derivative of the reduced amplitude for a fixed basis.
 //
-// dZ/dp includes the change of the steady state and that of the modal damping by harmonic.damping_ratio. The latter is
-// 2 zeta M (M^-1 K)^(1/2) on the modes; the derivative of this matrix function is that of Daleckii & Krein (Higham,
-// Functions of Matrices, 2008, theorem 3.11). dK/dp, dM/dp, dH/dp and dF/dp are differences between changed models
-// (changed_models.h).
+// dZ/dp includes the change of the steady state and the change of the modal damping by harmonic.damping_ratio. The
+// modal damping is 2 zeta M (M^-1 K)^(1/2) on the modes; this matrix function is differentiated by the formula of
+// Daleckii & Krein (Higham, Functions of Matrices, 2008, theorem 3.11). dK/dp, dM/dp, dH/dp and dF/dp are differences
+// between changed models (changed_models.h).
 #pragma once
 
 #include <complex>

@@ -29,7 +29,8 @@ struct ShapeSensitivity {
 
 struct ShapeSensitivities {
   std::vector<ShapeSensitivity> by_parameter;
-  // One per mode: why it has no derivative, such as "its frequency equals that of mode 8"; "" if it has one.
+  // By mode: the reason for a missing derivative, such as "its frequency equals that of mode 8"; "" for a mode that has
+  // a derivative.
   std::vector<std::string> missing;
 };
 

@@ -291,7 +291,7 @@ Json fit_json(const Fit& fit, const Problem& problem, const Result& result, cons
   out["correlation"] = Json::array();
   for (const auto& row : correlation.rowwise()) out["correlation"].push_back(vector_json(row));
   out["directions"] = Json::array();
-  const bool has_directions = problem.fields().empty();  // those of fields are too many
+  const bool has_directions = problem.fields().empty();  // a field has too many directions for a table
   if (has_directions)
     for (const Direction& direction : result.statistics.directions)
       out["directions"].push_back(

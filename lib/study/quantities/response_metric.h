@@ -18,8 +18,9 @@ double metric(const HarmonicResponse& response, std::size_t column, ResponseMetr
 // Whether metric_slopes() computes derivatives: of amplitude, phase and peak of a motion, not of a peak's frequency.
 bool has_slopes(const ResponseColumn& column, ResponseMetric wanted);
 
-// The derivatives of a metric with respect to the parameters of `sensitivity`, in SI units. The derivative of a peak is
-// that of the amplitude at the peak's frequency. Preconditions: has_slopes(), and `sensitivity` has the column.
+// The derivatives of a metric with respect to the parameters of `sensitivity`, in SI units. The frequency
+// of a peak is kept: its change does not change the height to first order. Preconditions: has_slopes(), and
+// `sensitivity` has the column.
 std::vector<double> metric_slopes(const HarmonicResponse& response, const ResponseSensitivity& sensitivity,
                                   std::size_t column, ResponseMetric wanted, const std::optional<double>& frequency);
 

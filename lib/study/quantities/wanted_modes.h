@@ -19,7 +19,7 @@ struct WantedModes {
   std::vector<std::optional<ModeMatch>> matches;  // by metric; empty without WantedMetric::matching
 };
 
-// Precondition: each metric has `mode` or `along`; `matchings` has those of WantedMetric::matching. Throws what
+// Preconditions: each metric has `mode` or `along`, and WantedMetric::matching is an index of `matchings`. Throws what
 // natural_modes() and natural_modes_below() throw.
 WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const FemModel& model, const State& about,
                          const std::vector<ModeMatching>& matchings = {});
