@@ -122,7 +122,7 @@ void BackwardProblem::start(double t) {
 
 void BackwardProblem::set_quadrature_tolerances() {
   const bool is_of_position = positions(tolerance_.get()).maxCoeff() > 0;
-  const double size = is_of_position ? scales_.position : scales_.velocity;
+  const double size = equations_.size().value_or(is_of_position ? scales_.position : scales_.velocity);
   const OwnedVector absolute(N_VClone(integral_.get()));
   for (int i = 0; i < equations_.count(); ++i)
     view(absolute.get())[i] = kTolerance * options_.rtol * size / equations_.scale(i);

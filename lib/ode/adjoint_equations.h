@@ -15,6 +15,7 @@
 // (a, M b) as the adjoint of (q, v).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lib/ode/integrator.h"
@@ -34,9 +35,12 @@ class AdjointEquations {
   // The number of parameters.
   virtual int count() const = 0;
 
-  // A change of parameter i, for error control: the error of the change of G that follows from it is relative to the
-  // size of the motion.
+  // A change of parameter i, for error control: the error of the change of G that follows from it is relative to
+  // size().
   virtual double scale(int i) const = 0;
+
+  // The size of G, if it is no position or velocity; default that of the motion. Called after source().
+  virtual std::optional<double> size() const { return std::nullopt; }
 
   // Computes b . (df/dp - dM/dp q'') for each parameter at a state of the motion. Throws RecoverableError as
   // Model::force() does.

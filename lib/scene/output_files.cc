@@ -55,6 +55,11 @@ ValueSchema schema_of_names(const std::vector<Location>& locations, std::vector<
                      "list of fields");
 }
 
+void require_name_for_csv(const std::string& name, const SourceLocation& origin) {
+  if (name.find_first_of(",\"\r\n") != std::string::npos)
+    origin.fail("its name is written to a CSV file: it must not contain commas, quotes or line breaks");
+}
+
 }  // namespace
 
 // A harmonic analysis also has accelerations.
@@ -105,6 +110,9 @@ const Spec<Output>& Output::spec() {
                "interpolated: frames from the integrator's own polynomial; exact: steps end at frame times.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
           .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
+          .key("gauges", &Output::gauges,
+               "Named strain gauges, each between two points of the body: NAME.length and NAME.strain, the engineering "
+               "strain, go to probes.csv.")
           .key("extremes", &Output::extremes,
                "Extremes of stress and strain over the run, with place and time, in the summary and run.json: "
                "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Evaluated at the rows of "
@@ -125,10 +133,13 @@ const Spec<Output>& Output::spec() {
           .key("momentum", &Output::momentum, "Write momentum.csv.")
           .check([](const Output& output, const Config& config) {
             if (output.interval && output.frames) config.fail("give one of interval, frames");
-            for (const auto& [name, probe] : output.probes)
-              if (name.find_first_of(",\"\r\n") != std::string::npos)
-                probe.origin.fail(
-                    "its name is written to a CSV file: it must not contain commas, quotes or line breaks");
+            for (const auto& [name, probe] : output.probes) require_name_for_csv(name, probe.origin);
+            for (const auto& [name, gauge] : output.gauges) {
+              require_name_for_csv(name, gauge.origin);
+              const auto has_name = [&name = name](const auto& probe) { return probe.first == name; };
+              if (std::ranges::any_of(output.probes, has_name))
+                gauge.origin.fail("a probe has the same name; choose another one");
+            }
           });
   return s;
 }

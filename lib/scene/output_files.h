@@ -1,4 +1,4 @@
-// The sections `output`, with its probes, and `checkpoint`: what a run writes, and when.
+// The sections `output`, with its probes and gauges, and `checkpoint`: what a run writes, and when.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/scene/gauge.h"
 
 namespace orthodyn {
 
@@ -45,7 +46,7 @@ struct Probe {
   static const Spec<Probe>& spec();
 };
 
-// When probes, reactions, energies and momenta are recorded, if not with the frames.
+// When probes, gauges, reactions, energies and momenta are recorded, if not with the frames.
 struct History {
   std::optional<double> interval;  // between rows, s
   bool steps = false;              // a row after each step
@@ -59,6 +60,7 @@ struct Output {
   OutputTimes times = OutputTimes::interpolated;
   FrameFields fields{"displacement", "velocity"};
   Named<Probe> probes;
+  Named<Gauge> gauges;                                 // written to probes.csv
   std::vector<std::string> extremes;                   // "von_mises.largest"
   bool reactions = false;                              // written to probes.csv
   bool energy = true, steps = true, momentum = false;  // files energy.csv, steps.csv, momentum.csv

@@ -66,6 +66,33 @@ std::vector<std::pair<std::string, Source>> sources(const Scene& scene, const Fe
   return all;
 }
 
+// Adds names of gauges, as suggestions for misspelt names.
+void add_gauges(const Scene& scene, std::vector<std::string>& known) {
+  for (const auto& [name, gauge] : scene.output.gauges)
+    for (const auto& [value, unit] : kGaugeValues) known.push_back(name + "." + value);
+}
+
+// The length or strain of a gauge, or both if `name` is that of a gauge; nullopt if it is neither.
+std::optional<Quantity> find_gauge(const std::string& name, const Scene& scene, const FemModel& model) {
+  for (const auto& [gauge_name, gauge] : scene.output.gauges) {
+    const auto wanted = find_gauge_value(after(name, gauge_name));
+    if (!wanted && name != gauge_name) continue;
+    Quantity quantity{name, wanted == GaugeValue::length ? "m" : ""};
+    if (!wanted)
+      for (const auto& [value, unit] : kGaugeValues) quantity.choices.push_back(value);
+    const auto chosen = [wanted](std::vector<double> all) {
+      return wanted ? std::vector<double>{all[static_cast<std::size_t>(*wanted)]} : all;
+    };
+    const PlacedGauge placed(gauge, model.parts().mesh);
+    quantity.values = [placed, chosen](const ObservedState& observed) { return chosen(placed.values(observed)); };
+    quantity.values_on = [placed, chosen](const ObservedState& observed, const Mesh& mesh) {
+      return chosen(placed.in(mesh).values(observed));
+    };
+    return quantity;
+  }
+  return std::nullopt;
+}
+
 // Adds names of extremes, as suggestions for misspelt names.
 void add_extremes(std::vector<std::string>& known) {
   for (const OutputInfo& info : region_fields()) {
@@ -88,6 +115,7 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     return {name, unit_of_extreme(name), {}, [find = *extreme](const ObservedState& observed) {
               return std::vector<double>{find(observed).value};
             }};
+  if (auto gauge = find_gauge(name, scene, model)) return *std::move(gauge);
   std::vector<std::string> known{kEnergyBalance};
   for (const auto& [source_name, source] : sources(scene, model)) {
     const std::string rest = after(name, source_name);
@@ -99,11 +127,13 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     known.push_back(source_name);
     for (const auto& component : components) known.push_back(source_name + "." + component);
   }
+  add_gauges(scene, known);
   add_extremes(known);
-  origin.fail(fmt::format(
-      "unknown quantity '{}'{} The nearest are {}. Use a probe of the scene with a field and a component "
-      "(tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body (`orthodyn list quantities`)",
-      name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
+  origin.fail(
+      fmt::format("unknown quantity '{}'{} The nearest are {}. Use a probe of the scene with a field and a component "
+                  "(tip.displacement.z, see `orthodyn list fields`), a gauge (NAME.strain), or a quantity of the whole "
+                  "body (`orthodyn list quantities`)",
+                  name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
 // A quantity of a state, by name:
 //
 //   PROBE.FIELD[.COMPONENT]              a field at a probe's node: tip.displacement.z, tip.nodal_stress_material.11
+//   GAUGE.length, GAUGE.strain            of a strain gauge (lib/scene/gauge.h)
 //   NAME[.COMPONENT]                     a quantity of the whole body: energy.kinetic, momentum.angular.y
 //   [REGION.]FIELD[.COMPONENT].largest   the largest (or .smallest) value of a stress or strain field over the nodes of
 //                                        the body, a region or a ply: von_mises.largest, grip.nodal_stress.xx.smallest
@@ -24,6 +25,8 @@ struct Quantity {
   std::string name, unit;
   std::vector<std::string> choices = {};  // the components, if none was chosen; `values` then returns all
   std::function<std::vector<double>(const ObservedState&)> values = {};  // empty for kEnergyBalance
+  // The values in a model whose nodes may have other places, for gauges; empty if `values` are the same.
+  std::function<std::vector<double>(const ObservedState&, const Mesh&)> values_on = {};
 
   int components() const { return choices.empty() ? 1 : static_cast<int>(choices.size()); }
   // True for three components, also principal stresses; the norm then measures the drift.

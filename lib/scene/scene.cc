@@ -102,7 +102,8 @@ const Spec<Scene>& Scene::spec() {
           .key("output", &Scene::output, "Output files.")
           .key("sensitivities", &Scene::sensitivities,
                "Numbers of the scene by their paths, such as materials.wood.young.0: sensitivities.csv gets the "
-               "derivatives of probes, reactions and energies, or of critical load factors, with respect to them. For "
+               "derivatives of probes, gauges, reactions and energies, or of critical load factors, with respect to "
+               "them. For "
                "analysis: static, buckling and harmonic, and for motions with cvode_bdf, cvode_adams or ida_bdf.")
           .key("checkpoint", &Scene::checkpoint,
                "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {}: every "
@@ -203,8 +204,8 @@ void check_buckling(const Config& config, Scene& scene, bool is_timed) {
     if (!e.buckling) e.origin.fail("a buckling analysis has critical load factors only: use {buckling: 1, value: ...}");
   const Output& output = scene.output;
   const Output usual;
-  if (output.fields != usual.fields || !output.probes.empty() || !output.extremes.empty() || output.reactions ||
-      output.momentum || output.interval || output.frames || output.history)
+  if (output.fields != usual.fields || !output.probes.empty() || !output.gauges.empty() || !output.extremes.empty() ||
+      output.reactions || output.momentum || output.interval || output.frames || output.history)
     config.at("output").fail(
         "has no effect in a buckling analysis, which writes load factors and shapes only; remove it");
   if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
@@ -290,9 +291,10 @@ void check_harmonic(const Config& config, Scene& scene, bool is_timed) {
   if (output.fields != usual.fields || !output.extremes.empty() || output.reactions || output.momentum ||
       output.interval || output.frames || output.history)
     config.at("output").fail(
-        "of a harmonic analysis has probes only: response.csv is the response at them; remove the other keys");
-  if (output.probes.empty())
-    config.fail("a harmonic analysis needs output.probes, the points at which the response is wanted");
+        "of a harmonic analysis has probes and gauges only: response.csv is the response at them; remove the other "
+        "keys");
+  if (output.probes.empty() && output.gauges.empty())
+    config.fail("a harmonic analysis needs output.probes or output.gauges, the points at which the response is wanted");
   if (!scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
 }
 

@@ -1,4 +1,4 @@
-// `orthodyn gradient`: the derivatives of one displacement or velocity with respect to many numbers of a scene.
+// `orthodyn gradient`: the derivatives of one displacement, velocity or strain with respect to many numbers of a scene.
 #include "lib/simulation/sensitivity/gradient.h"
 
 #include <fmt/format.h>
@@ -73,7 +73,9 @@ void declare(GradientArguments& arguments, CommandOptions& options) {
   options.value("scene", arguments.scene, "A scene in YAML, static or a motion with cvode_bdf.")
       .required()
       .type("SCENE.yaml");
-  options.value("--of", arguments.quantity, "The quantity: PROBE.displacement.z or PROBE.velocity.z.")
+  options
+      .value("--of", arguments.quantity,
+             "The quantity: PROBE.displacement.z, PROBE.velocity.z, GAUGE.length or GAUGE.strain.")
       .required()
       .type("QUANTITY");
   options
@@ -91,8 +93,9 @@ void declare(GradientArguments& arguments, CommandOptions& options) {
 const CommandRegistration gradient_command(
     {.order = 31,
      .name = "gradient",
-     .sentence = "Compute the derivatives of a displacement with respect to many numbers of a scene, by adjoint "
-                 "equations.",
+     .sentence =
+         "Compute the derivatives of a displacement or strain with respect to many numbers of a scene, by adjoint "
+         "equations.",
      .examples = R"(
   orthodyn gradient beam.yaml --of tip.displacement.z --by regions.body.stiffness_factors
   orthodyn gradient motion.yaml --of tip.velocity.x --at 0.2 --by materials.wood.young.0 --by materials.wood.g12)"},

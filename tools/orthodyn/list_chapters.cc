@@ -99,6 +99,7 @@ void list_scene() {
   print_entry("regions.<name>", "Material, axes and kinematics of a region.", Region::spec().keys());
   print_entry("output", "What is written.", Output::spec().keys());
   print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
+  print_entry("output.gauges.<name>", "A strain gauge between two points.", Gauge::spec().keys());
 }
 
 void list_expectations() {

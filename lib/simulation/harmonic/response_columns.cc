@@ -67,6 +67,9 @@ std::vector<ResponseColumn> response_columns(const Scene& scene, const FemModel&
                            fmt::format("{}.{}.{}", probe, field, info.component_names[static_cast<std::size_t>(c)]),
                            unit == "1" ? "" : unit, std::max(motion, 0), motion >= 0, motion < 0 ? 0 : base[c]});
     }
+  for (const auto& [name, gauge] : scene.output.gauges)
+    for (const auto& [value, unit] : kGaugeValues)
+      columns.push_back({name, name + "." + value, std::string(unit) == "1" ? "" : unit, 0, false});
   return columns;
 }
 
@@ -76,8 +79,10 @@ std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::s
   for (const ResponseColumn& column : columns) names.push_back(column.name);
   const auto found = std::find(names.begin(), names.end(), quantity);
   if (found == names.end())
-    origin.fail(fmt::format("unknown quantity '{}'{}; a harmonic analysis has the components of its probes' fields: {}",
-                            quantity, did_you_mean(quantity, names), join(nearest_names(quantity, names, 5))));
+    origin.fail(
+        fmt::format("unknown quantity '{}'{}; a harmonic analysis has the components of its probes' fields and the "
+                    "values of its gauges: {}",
+                    quantity, did_you_mean(quantity, names), join(nearest_names(quantity, names, 5))));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -85,6 +90,8 @@ void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const F
                const Eigen::MatrixXd& basis) {
   constexpr double kStep = 1e-5;  // displacement of the differences, relative to the smallest extent of the body
   const double size = bounding_box(model.parts().mesh).size().minCoeff();
+  std::vector<PlacedGauge> gauges;
+  for (const auto& [name, gauge] : scene.output.gauges) gauges.emplace_back(gauge, model.parts().mesh);
   for (ResponseColumn& column : columns) column.of_basis = Vector::Zero(basis.cols());
   for (Eigen::Index k = 0; k < basis.cols(); ++k) {
     const double step = kStep * size / largest_displacement(basis.col(k));
@@ -100,6 +107,10 @@ void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const F
         const auto low = behind.evaluate_at(info.name, node, info.components);
         for (std::size_t c = 0; c < high.size(); ++c) columns[column++].of_basis[k] = (high[c] - low[c]) / (2 * step);
       }
+    for (const PlacedGauge& gauge : gauges) {
+      const auto high = gauge.values(ahead), low = gauge.values(behind);
+      for (std::size_t c = 0; c < high.size(); ++c) columns[column++].of_basis[k] = (high[c] - low[c]) / (2 * step);
+    }
   }
 }
 

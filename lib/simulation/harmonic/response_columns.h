@@ -1,4 +1,4 @@
-// The quantities of a harmonic analysis: amplitudes of fields at the probes.
+// The quantities of a harmonic analysis: amplitudes of fields at the probes, and of gauges.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace orthodyn {
 
 class FemModel;
 
-// A component of a field at a probe, as a linear function of the vibration.
+// A component of a field at a probe, or a value of a gauge, as a linear function of the vibration.
 struct ResponseColumn {
-  std::string probe;
+  std::string probe;     // or gauge
   std::string name;      // "bridge.velocity.z"
   std::string unit;      // "m/s"
   int time_derivative;   // 0, 1 or 2, of the vibration
@@ -26,14 +26,15 @@ struct ResponseColumn {
 };
 
 // Columns of all probes, fields and components, without `of_basis`. Fields are displacement, velocity, acceleration and
-// those that are linear in a small displacement: nodal strains and stresses. Throws ConfigError for others.
+// those that are linear in a small displacement: nodal strains and stresses. Throws ConfigError for others. Gauges
+// follow; the amplitude of a length is that of its change.
 std::vector<ResponseColumn> response_columns(const Scene& scene, const FemModel& model);
 
 // Index of a column. Throws ConfigError at `origin` if the scene has no such quantity.
 std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::string& quantity,
                         const SourceLocation& origin);
 
-// Sets `of_basis` of the columns. Strains and stresses are differences of second order about the state.
+// Sets `of_basis` of the columns. Strains, lengths and stresses are differences of second order about the state.
 void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const FemModel& model, const State& about,
                const Eigen::MatrixXd& basis);
 

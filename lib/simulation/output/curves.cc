@@ -34,6 +34,10 @@ std::vector<std::string> probe_header(const ProbeColumns& columns, const std::st
 
 ProbeColumns::ProbeColumns(const Model& model, std::vector<ProbeColumn> columns) : columns_(std::move(columns)) {
   for (auto& column : columns_) {
+    if (column.gauge) {
+      for (const auto& [value, unit] : kGaugeValues) names_and_units_.emplace_back(column.name + "." + value, unit);
+      continue;
+    }
     const OutputInfo info = info_of(model, column.field);
     column.components = info.components;
     column.at_node = info.location == Location::node;
@@ -45,11 +49,22 @@ ProbeColumns::ProbeColumns(const Model& model, std::vector<ProbeColumn> columns)
   }
 }
 
-std::vector<double> ProbeColumns::values(const ObservedState& observed) const {
+std::vector<double> ProbeColumns::values(const ObservedState& observed) const { return values(observed, nullptr); }
+
+std::vector<double> ProbeColumns::values_on(const Mesh& mesh, const ObservedState& observed) const {
+  return values(observed, &mesh);
+}
+
+// `mesh`: null for that of the model of the columns.
+std::vector<double> ProbeColumns::values(const ObservedState& observed, const Mesh* mesh) const {
+  const auto values_of = [&](const ProbeColumn& column) {
+    if (column.gauge) return mesh ? column.gauge->in(*mesh).values(observed) : column.gauge->values(observed);
+    return column.at_node ? observed.evaluate_at(column.field, column.node, column.components)
+                          : observed.evaluate(column.field);
+  };
   std::vector<double> all;
   for (const auto& column : columns_) {
-    const auto values = column.at_node ? observed.evaluate_at(column.field, column.node, column.components)
-                                       : observed.evaluate(column.field);
+    const auto values = values_of(column);
     all.insert(all.end(), values.begin(), values.end());
   }
   return all;

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/scene/gauge.h"
 #include "lib/simulation/output/balance.h"
 #include "lib/simulation/output/event_finder.h"
 #include "lib/simulation/output/files.h"
@@ -74,11 +76,12 @@ class StepWriter : public TableWriter {
 
 // A column group of probes.csv.
 struct ProbeColumn {
-  std::string name;      // "tip"; empty for an output of the whole body
-  int node;              // 0 for an output of the whole body
-  std::string field;     // a nodal output such as "displacement", or "reaction.clamp_1"
-  int components = 0;    // number of the field's components; set by ProbeColumns
-  bool at_node = false;  // whether it is a nodal output; set by ProbeColumns
+  std::string name;                       // "tip"; empty for an output of the whole body
+  int node;                               // 0 for an output of the whole body, and for a gauge
+  std::string field;                      // a nodal output such as "displacement", or "reaction.clamp_1"
+  std::optional<PlacedGauge> gauge = {};  // length and strain of a gauge; `field` is empty then
+  int components = 0;                     // number of the field's components; set by ProbeColumns
+  bool at_node = false;                   // whether it is a nodal output; set by ProbeColumns
 };
 
 // The columns with their numbers of components, and the name and unit of each component: "tip.displacement.x", "m".
@@ -87,8 +90,12 @@ class ProbeColumns {
   ProbeColumns(const Model& model, std::vector<ProbeColumn> columns);
   const std::vector<std::pair<std::string, std::string>>& names_and_units() const { return names_and_units_; }
   std::vector<double> values(const ObservedState& observed) const;
+  // The same in a model whose nodes may have other places. Probes stay at their nodes.
+  std::vector<double> values_on(const Mesh& mesh, const ObservedState& observed) const;
 
  private:
+  std::vector<double> values(const ObservedState& observed, const Mesh* mesh) const;
+
   std::vector<ProbeColumn> columns_;
   std::vector<std::pair<std::string, std::string>> names_and_units_;
 };

@@ -44,6 +44,7 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
 }
 
 void check_outputs(const Scene& scene, const FemModel& model) {
+  for (const auto& [name, gauge] : scene.output.gauges) PlacedGauge(gauge, model.parts().mesh);  // throws
   if (scene.harmonic) {
     response_columns(scene, model);  // throws for an unknown field
     return;

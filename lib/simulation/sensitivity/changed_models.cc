@@ -101,13 +101,16 @@ SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene
     Eigen::VectorXd all(static_cast<Eigen::Index>(quantities.size()));
     for (Eigen::Index i = 0; i < all.size(); ++i) {
       const Quantity& quantity = quantities[static_cast<std::size_t>(i)];
-      all[i] = quantity.values ? quantity.values(observed).at(0) : std::numeric_limits<double>::quiet_NaN();
+      if (quantity.values_on) all[i] = quantity.values_on(observed, of.parts().mesh).at(0);
+      else all[i] = quantity.values ? quantity.values(observed).at(0) : std::numeric_limits<double>::quiet_NaN();
     }
     return all;
   };
 }
 
-bool is_kinematic(const std::string& quantity) {
+bool is_kinematic(const std::string& quantity, const Scene& scene) {
+  const auto is_of = [&](const auto& gauge) { return quantity.starts_with(gauge.first + "."); };
+  if (std::ranges::any_of(scene.output.gauges, is_of)) return true;
   constexpr std::array kFields{"displacement", "velocity", "nodal_strain", "nodal_strain_space"};
   if (quantity.find("stress") != std::string::npos) return false;  // a probe may have the name of a field
   for (std::size_t begin = 0; begin <= quantity.size();) {

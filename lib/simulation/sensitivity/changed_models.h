@@ -59,11 +59,13 @@ class ChangedModels {
 using SceneOutputs = std::function<Eigen::VectorXd(const Scene& scene, const FemModel& model, const State& state)>;
 
 // The quantities of these names (lib/scene/quantity.h), which must be single numbers; NaN for the energy balance.
-// Probes are at the nodes that they have in `model`, also in models with another mesh.
+// Probes are at the nodes that they have in `model`, also in models with another mesh; points of gauges stay at their
+// places.
 SceneOutputs named_quantities(const std::vector<std::string>& names, const Scene& scene, const FemModel& model);
 
-// Whether a quantity depends on displacements and velocities only, not on the stiffness. False if this is unknown.
-bool is_kinematic(const std::string& quantity);
+// Whether a quantity of a scene depends on displacements and velocities only, not on the stiffness. False if this is
+// unknown.
+bool is_kinematic(const std::string& quantity, const Scene& scene);
 
 // A displacement for differences, 1e-4 of the smallest side of the body, in m: a slender body strongly resists larger
 // straight displacements.

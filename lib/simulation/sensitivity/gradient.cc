@@ -6,11 +6,10 @@
 #include <memory>
 
 #include "lib/core/errors.h"
-#include "lib/core/spelling.h"
-#include "lib/mesh/selection.h"
 #include "lib/ode/adjoint_equations.h"
 #include "lib/scene/build.h"
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/sensitivity/gradient_quantity.h"
 #include "lib/simulation/sensitivity/parameter_products.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
@@ -18,41 +17,6 @@
 namespace orthodyn {
 
 namespace {
-
-// A displacement or velocity component at a probe: an unknown of the model.
-struct ProbedUnknown {
-  int index = -1;
-  bool is_velocity = false;
-
-  double of(const State& state) const { return is_velocity ? state.v[index] : state.q[index]; }
-};
-
-ProbedUnknown probed_unknown(const std::string& quantity, const Scene& scene, const FemModel& model) {
-  const auto fail = [&](const std::string& reason) {
-    throw ConfigError(quantity, reason +
-                                    "; a gradient is of PROBE.displacement.x, .y or .z, or of PROBE.velocity.x, .y "
-                                    "or .z. Derivatives of other quantities: sensitivities in the scene");
-  };
-  for (const auto& [name, probe] : scene.output.probes) {
-    if (!quantity.starts_with(name + ".")) continue;
-    const std::string rest = quantity.substr(name.size() + 1);
-    const auto dot = rest.find('.');
-    const std::string field = rest.substr(0, dot), component = dot == std::string::npos ? "" : rest.substr(dot + 1);
-    const std::string axes = "xyz";
-    if ((field != "displacement" && field != "velocity") || component.size() != 1 ||
-        axes.find(component) == std::string::npos)
-      fail(fmt::format("'{}' is no such quantity", rest));
-    const int node = nearest_node(model.parts().mesh, probe.at);
-    const int index = model.parts().dofs->node(node)[axes.find(component)];
-    if (index < 0) fail("this coordinate is held or moved by a support");
-    if (field == "velocity" && scene.is_static()) fail("the scene is static and has no velocity");
-    return {index, field == "velocity"};
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, probe] : scene.output.probes) names.push_back(name);
-  fail(names.empty() ? "the scene has no probes" : fmt::format("the scene has no such probe; it has {}", join(names)));
-  return {};
-}
 
 std::vector<SceneParameter> parameters_at(const Config& config, const std::vector<std::string>& paths) {
   std::vector<std::string> all;
@@ -69,31 +33,30 @@ std::vector<SceneParameter> parameters_at(const Config& config, const std::vecto
   return model_parameters(config, all, {"parameters"});
 }
 
-// G = the unknown at one time.
+// G = the quantity at one time.
 class Equations final : public AdjointEquations {
  public:
-  Equations(const ProbedUnknown& unknown, double t, ParameterProducts& products,
+  Equations(const GradientQuantity& quantity, double t, ParameterProducts& products,
             const std::vector<SceneParameter>& parameters)
-      : unknown_(unknown), times_{t}, products_(products), parameters_(parameters) {}
+      : quantity_(quantity), times_{t}, products_(products), parameters_(parameters) {}
 
   const std::vector<double>& times() const override { return times_; }
   void source(std::size_t, const State& state, VectorRef by_position, VectorRef by_velocity) override {
-    by_position.setZero();
-    by_velocity.setZero();
-    (unknown_.is_velocity ? by_velocity : by_position)[unknown_.index] = 1;
-    value = unknown_.of(state);
+    quantity_.derivatives(state, by_position, by_velocity);
+    at_time = state;
   }
   int count() const override { return products_.count(); }
   // 10 % of the parameter; 10 degrees of an angle.
   double scale(int i) const override { return 10 * parameters_[static_cast<std::size_t>(i)].usual_change(); }
+  std::optional<double> size() const override { return quantity_.size(at_time); }
   void products(const State& state, const ConstVectorRef& b, VectorRef out) override {
     products_.compute(state, b, out);
   }
 
-  double value = 0;
+  State at_time;  // set by source()
 
  private:
-  ProbedUnknown unknown_;
+  const GradientQuantity& quantity_;
   std::vector<double> times_;
   ParameterProducts& products_;
   const std::vector<SceneParameter>& parameters_;
@@ -112,12 +75,13 @@ void require_adjoint(const Setup& setup) {
         "mass-proportional damping, or elasticity.kinematics: linear");
 }
 
-Gradient of_equilibrium(const Setup& setup, const ProbedUnknown& unknown, ParameterProducts& products) {
+Gradient of_equilibrium(const Setup& setup, const GradientQuantity& quantity, ParameterProducts& products,
+                        State& state) {
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   const std::atomic<bool> never{false};
   const Outcome outcome = run_static(*problem.path, *problem.stepper, {}, never);
   if (outcome.status != Outcome::Status::completed) throw RunError("no equilibrium was found: " + outcome.message);
-  const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
+  state = {problem.path->times().end, outcome.last.q, Vector::Zero(outcome.last.q.size())};
   constexpr double kFullLoad = 1;
   Linearization tangent;
   problem.path->linearize(kFullLoad, state.q, Vector::Zero(state.q.size()), TangentKind::exact, tangent);
@@ -126,12 +90,11 @@ Gradient of_equilibrium(const Setup& setup, const ProbedUnknown& unknown, Parame
   const auto factor = make_indefinite_solver(problem.path->pattern());
   if (factor->factor(values.data()) != FactorStatus::ok)
     throw RunError("the stiffness at the equilibrium is singular, so the derivatives do not exist");
-  Vector unit = Vector::Zero(state.q.size()), adjoint(state.q.size()), out(products.count());
-  unit[unknown.index] = 1;
-  factor->solve(unit, adjoint);
+  Vector slope(state.q.size()), of_velocity(state.q.size()), adjoint(state.q.size()), out(products.count());
+  quantity.derivatives(state, slope, of_velocity);
+  factor->solve(slope, adjoint);
   products.compute(state, adjoint, out);
   Gradient found;
-  found.value = unknown.of(state);
   found.derivatives.assign(out.begin(), out.end());
   return found;
 }
@@ -152,19 +115,19 @@ Vector adjoint_of_equilibrium(const Setup& setup, const Vector& a) {
   return out;
 }
 
-Gradient of_motion(const Setup& setup, const ProbedUnknown& unknown, double t, ParameterProducts& products,
-                   const std::vector<SceneParameter>& parameters) {
+Gradient of_motion(const Setup& setup, const GradientQuantity& quantity, double t, ParameterProducts& products,
+                   const std::vector<SceneParameter>& parameters, State& state) {
   const auto* method = dynamic_cast<const AdjointIntegrator*>(setup.scene.integrator.get());
   if (!method)
     throw ConfigError("gradient", "adjoint equations are integrated by cvode_bdf: set integrator.type to it");
   if (setup.scene.start == Start::equilibrium && (setup.scene.initial || !setup.scene.motions.empty()))
     throw ConfigError("start",
                       "equilibrium with 'initial' or 'motions' is not available for gradients: use sensitivities");
-  Equations equations(unknown, t, products, parameters);
+  Equations equations(quantity, t, products, parameters);
   const Task task = task_of(setup.scene, setup.built);
   const AdjointSolution solution = method->integrate_adjoint(*setup.built.model, task, equations);
   Gradient found;
-  found.value = equations.value;
+  state = equations.at_time;
   if (setup.scene.start == Start::equilibrium) {
     const State& start = setup.built.initial;
     Vector at_start(products.count());
@@ -186,7 +149,7 @@ Gradient gradient(const Config& config, const GradientRequest& request) {
   const Setup setup = set_up(config);
   require_adjoint(setup);
   const Scene& scene = setup.scene;
-  const ProbedUnknown unknown = probed_unknown(request.quantity, scene, *setup.built.model);
+  const GradientQuantity quantity(request.quantity, scene, *setup.built.model);
   if (scene.is_static() && request.at) throw ConfigError("gradient", "the scene is static: leave out the time");
   const double t = request.at.value_or(scene.time.end);
   if (!scene.is_static() && !(t > scene.time.start && t <= scene.time.end))
@@ -195,9 +158,14 @@ Gradient gradient(const Config& config, const GradientRequest& request) {
   const Config chosen = with_chosen_kinematics(setup.config);
   const auto parameters = parameters_at(chosen, request.paths);
   ParameterProducts products(chosen, scene, setup.built, parameters);
-  Gradient found =
-      scene.is_static() ? of_equilibrium(setup, unknown, products) : of_motion(setup, unknown, t, products, parameters);
-  found.unit = unknown.is_velocity ? "m/s" : "m";
+  State state;
+  Gradient found = scene.is_static() ? of_equilibrium(setup, quantity, products, state)
+                                     : of_motion(setup, quantity, t, products, parameters, state);
+  const ChangedMotion motion = scene.is_static() ? ChangedMotion::still : ChangedMotion::as_given;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    found.derivatives[i] += quantity.explicit_derivative(chosen, parameters[i], state, motion);
+  found.value = quantity.value(state);
+  found.unit = quantity.unit();
   found.parameters = parameters;
   return found;
 }

@@ -1,6 +1,6 @@
-// The derivatives of one displacement or velocity with respect to many numbers of a scene, by adjoint equations: the
-// cost hardly depends on the number of parameters. Forward sensitivities (motion_sensitivity.h) give the derivatives of
-// many quantities with respect to few numbers.
+// The derivatives of one displacement, velocity or strain with respect to many numbers of a scene, by adjoint
+// equations: the cost hardly depends on the number of parameters. Forward sensitivities (motion_sensitivity.h) give the
+// derivatives of many quantities with respect to few numbers.
 //
 // Motions: lib/ode/adjoint_equations.h. Equilibria: with K^T l = dQ/dq, dQ/dp = l . df/dp.
 #pragma once
@@ -15,7 +15,7 @@
 namespace orthodyn {
 
 struct GradientRequest {
-  std::string quantity;           // "PROBE.displacement.z" or "PROBE.velocity.z"
+  std::string quantity;           // "PROBE.displacement.z", "PROBE.velocity.z" or "GAUGE.strain"
   std::optional<double> at = {};  // time of a motion, s; default its end
   // Paths of numbers. The path of a region's `stiffness_factors` stands for the factors of all cells of its grid.
   std::vector<std::string> paths = {};

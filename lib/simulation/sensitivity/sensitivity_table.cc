@@ -22,7 +22,7 @@ std::vector<std::string> header_of(const std::string& axis, const ProbeColumns& 
 
 SceneOutputs outputs_of(const ProbeColumns& quantities) {
   return [&quantities](const Scene&, const FemModel& model, const State& state) -> Eigen::VectorXd {
-    const auto values = quantities.values({model, state});
+    const auto values = quantities.values_on(model.parts().mesh, {model, state});
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
 }
@@ -46,7 +46,7 @@ ProbeColumns sensitivity_quantities(const Scene& scene, const FemModel& model) {
       if (!scene.is_static() || std::string_view(energy) != "energy.kinetic") columns.push_back({"", 0, energy});
   if (columns.empty())
     scene.sensitivities.origin.fail(
-        "have no quantity: add output.probes, output.reactions: true or output.energy: true");
+        "have no quantity: add output.probes, output.gauges, output.reactions: true or output.energy: true");
   return {model, std::move(columns)};
 }
 

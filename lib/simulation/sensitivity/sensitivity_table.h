@@ -1,4 +1,4 @@
-// sensitivities.csv of a run: derivatives of probes, reactions and energies with respect to the scene's
+// sensitivities.csv of a run: derivatives of probes, gauges, reactions and energies with respect to the scene's
 // `sensitivities`.
 #pragma once
 

@@ -74,6 +74,10 @@ void add_defaults(Named<WantedMetric>& metrics, const Scene& scene, const FemMod
     if (!is_static) add(metrics, TimeReduction::max, name + ".displacement.magnitude");
     add(metrics, TimeReduction::end, name + ".displacement.magnitude");
   }
+  for (const auto& [name, gauge] : scene.output.gauges) {
+    if (!is_static) add(metrics, TimeReduction::max, name + ".strain");
+    add(metrics, TimeReduction::end, name + ".strain");
+  }
   if (metrics.empty()) add(metrics, is_static ? TimeReduction::end : TimeReduction::max, "energy.elastic");
 }
 

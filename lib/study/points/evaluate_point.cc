@@ -291,7 +291,8 @@ class Evaluation {
     }
     auto* const first = &result_.derivatives[result_.derivatives.size() - names.size()];
     const SceneOutputs outputs = named_quantities(names, setup.scene, *setup.built.model);
-    const bool kinematic = std::ranges::all_of(names, is_kinematic);
+    const bool kinematic =
+        std::ranges::all_of(names, [&](const auto& name) { return is_kinematic(name, setup.scene); });
     for (const SceneParameter& parameter : all) {
       const auto slopes = sensitivity.derivatives(parameter, outputs, kinematic);
       for (std::size_t i = 0; i < names.size(); ++i) first[i].second.push_back(slopes[static_cast<Eigen::Index>(i)]);
