@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/fem/element_mesh.h"
+#include "lib/fem/terms/added_term.h"
 
 namespace orthodyn {
 
@@ -16,11 +17,15 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 double norm(const Vector& x, const Vector& Mx) { return std::sqrt(std::max(x.dot(Mx), 0.0)); }
 
-std::unique_ptr<ElasticTerm> with_exact_force(const ElasticTerm& term, const ElementMesh& elements,
-                                              const BlockPattern& pattern) {
+// The elastic term and its added terms with corotational kinematics.
+std::vector<std::unique_ptr<Term>> with_exact_force(const ElasticTerm& term, const ElementMesh& elements,
+                                                    const BlockPattern& pattern) {
   ElasticRegion region = term.definition();
   region.options = {};
-  return term.type().elastic_term(elements, std::move(region), pattern);
+  std::vector<std::unique_ptr<Term>> all;
+  all.push_back(term.type().elastic_term(elements, std::move(region), pattern));
+  for (const AddedTerm* added : term.added()) all.push_back(added->corotational(elements, pattern));
+  return all;
 }
 
 // The part of shift(mean + swing) that is odd in `swing`. If no shift is found for the full swing, smaller swings are
@@ -76,23 +81,43 @@ bool Linearity::factor_exact(double t, const Vector& q, const Terms& terms) {
   std::vector<double> linear(values_.size());
   model_.linearize(t, q, still, TangentKind::exact, tangent_);
   model_.combine({mass_, 0, 1}, tangent_, values_.data());
-  for (const std::size_t k : terms) {
-    exact_[k]->add_tangent(nodal.state(), TangentKind::exact, values_.data(), nullptr);
-    parts.elastic[k]->add_tangent(nodal.state(), TangentKind::exact, linear.data(), nullptr);
-  }
+  add_tangents(true, terms, nodal.state(), values_.data());
+  add_tangents(false, terms, nodal.state(), linear.data());
   for (std::size_t i = 0; i < values_.size(); ++i) values_[i] -= linear[i];
   holds_rest_ = false;
   return solver_->factor(values_.data()) == FactorStatus::ok;
+}
+
+void Linearity::add_forces(bool exact, const Terms& terms, const NodalState& s, NodalVector& f) const {
+  for (const std::size_t k : terms) {
+    if (exact) {
+      for (const auto& term : exact_[k]) term->add_force(s, f);
+    } else {
+      const ElasticTerm& elastic = *model_.parts().elastic[k];
+      elastic.add_force(s, f);
+      for (const AddedTerm* added : elastic.added()) added->add_force(s, f);
+    }
+  }
+}
+
+void Linearity::add_tangents(bool exact, const Terms& terms, const NodalState& s, double* K) const {
+  for (const std::size_t k : terms) {
+    if (exact) {
+      for (const auto& term : exact_[k]) term->add_tangent(s, TangentKind::exact, K, nullptr);
+    } else {
+      const ElasticTerm& elastic = *model_.parts().elastic[k];
+      elastic.add_tangent(s, TangentKind::exact, K, nullptr);
+      for (const AddedTerm* added : elastic.added()) added->add_tangent(s, TangentKind::exact, K, nullptr);
+    }
+  }
 }
 
 void Linearity::add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const {
   const FemModel::Parts& parts = model_.parts();
   const NodalExpansion nodal(parts, t, q, Vector::Zero(q.size()));
   NodalVector exact = NodalVector::Zero(3, nodal.x.cols()), linear = exact;
-  for (const std::size_t k : terms) {
-    exact_[k]->add_force(nodal.state(), exact);
-    parts.elastic[k]->add_force(nodal.state(), linear);
-  }
+  add_forces(true, terms, nodal.state(), exact);
+  add_forces(false, terms, nodal.state(), linear);
   Vector correction(q.size());
   parts.dofs->restrict_to(exact - linear, correction);
   f += correction;

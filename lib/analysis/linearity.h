@@ -59,13 +59,17 @@ class Linearity {
   LinearityError distance(double t, const Vector& q, const Terms& terms);
   // Displacement (m) from q to the equilibrium with the exact force; nullopt if no equilibrium is found.
   std::optional<Vector> shift(double t, const Vector& q, const Terms& terms);
+  // Adds the forces (N) or tangents of some elastic terms and of their added terms: `exact` ones or those of the model.
+  void add_forces(bool exact, const Terms& terms, const NodalState& s, NodalVector& f) const;
+  void add_tangents(bool exact, const Terms& terms, const NodalState& s, double* K) const;
   // Adds the exact minus the linear force (N) of the terms to f, on the free coordinates.
   void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;
 
   const FemModel& model_;
   Terms terms_;
-  std::vector<std::unique_ptr<ElasticTerm>> exact_;  // parallel to Parts::elastic; null for other terms
-  double mass_;                                      // weight of M in the factorised matrix K + mass_ M, 1/s^2
+  // Parallel to Parts::elastic, empty for other terms: the terms with corotational kinematics, first the elastic one.
+  std::vector<std::vector<std::unique_ptr<Term>>> exact_;
+  double mass_;  // weight of M in the factorised matrix K + mass_ M, 1/s^2
   Linearization tangent_;
   std::vector<double> values_;
   std::unique_ptr<LinearSolver> solver_;

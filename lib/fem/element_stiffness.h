@@ -33,12 +33,10 @@ template <class T, class Gradient>
 
 // Adds the stiffness V g_a . A . g_b (N/m) of one point to K_ab for nodes a, b = 1, 2, ..., with the point's volume V,
 // tangent moduli A and shape gradients g_a. If `first`, sets K_ab instead.
-template <int kNodes, class C, class T>
-[[gnu::noipa]] void add_point_stiffness(const TangentFormOf<C, T>& form, const ElementPoint<kNodes, T>& point,
-                                        bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
+template <int kNodes, class T>
+[[gnu::always_inline]] inline void add_point_moduli(const Mat9T<T>& A, const ElementPoint<kNodes, T>& point,
+                                                    bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
   using namespace stiffness_detail;
-  Mat9T<T> A = expand(form);
-  turn_to_space<T>(form.R, A);
   for (int b = 1; b < kNodes; ++b) {
     const Vec3T<T> g_b = point.volume * point.B.row(b - 1).transpose();
     const auto right = contract_right<T>(A, g_b);
@@ -51,6 +49,15 @@ template <int kNodes, class C, class T>
       }
     }
   }
+}
+
+// As above, for the moduli of a tangent form.
+template <int kNodes, class C, class T>
+[[gnu::noipa]] void add_point_stiffness(const TangentFormOf<C, T>& form, const ElementPoint<kNodes, T>& point,
+                                        bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
+  Mat9T<T> A = expand(form);
+  turn_to_space<T>(form.R, A);
+  add_point_moduli<kNodes>(A, point, symmetric, first, K);
 }
 
 // Sets the blocks of node 0, whose shape function is 1 minus the sum of the others.

@@ -9,6 +9,8 @@
 
 namespace orthodyn {
 
+class AddedLaw;
+class AddedTerm;
 class BlockPattern;
 class ElasticTerm;
 struct ElasticRegion;
@@ -57,6 +59,12 @@ class ElementType {
   // Makes the elastic term of a region of such elements. Type and pattern must outlive the term, the mesh need not.
   virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                                     const BlockPattern& pattern) const = 0;
+
+  // Makes the term of an added law (lib/fem/added_laws) for the elements of an elastic term that was made by this type
+  // from the same mesh and pattern. Type, elastic term and pattern must outlive the term.
+  virtual std::unique_ptr<AddedTerm> added_term(const ElementMesh& mesh, const ElasticTerm& elastic,
+                                                std::unique_ptr<const AddedLaw> law,
+                                                const BlockPattern& pattern) const = 0;
 };
 
 const ElementType& linear_tetrahedron();

@@ -5,6 +5,7 @@
 #include "lib/element/linear_law.h"
 #include "lib/element/warped_law.h"
 #include "lib/fem/element_type.h"
+#include "lib/fem/terms/added_term_of.h"
 #include "lib/fem/terms/mixed_elastic_term.h"
 #include "lib/material/stiffness_contrast.h"
 
@@ -72,6 +73,12 @@ class ElementTypeOf final : public ElementType {
     const Stiffness stiffness = region.stiffness;
     return std::visit([&](const auto& C) { return term_with_stiffness(C, mesh, std::move(region), pattern); },
                       stiffness);
+  }
+
+  std::unique_ptr<AddedTerm> added_term(const ElementMesh& mesh, const ElasticTerm& elastic,
+                                        std::unique_ptr<const AddedLaw> law,
+                                        const BlockPattern& pattern) const override {
+    return std::make_unique<AddedTermOf<E>>(mesh, elastic, std::move(law), pattern, rule_ ? &*rule_ : nullptr);
   }
 
  private:

@@ -113,7 +113,7 @@ class FemModel : public Model {
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v,
                  double load_factor = 1);
-  NodalState state() const { return {t, x, u, u_rate}; }
+  NodalState state() const { return {t, x, u, u_rate, load_factor}; }
   double time;  // of the state, s
   double t;     // at which loads are evaluated, s
   double load_factor;

@@ -15,10 +15,11 @@ namespace orthodyn {
 // Positions, displacements and velocities of all nodes, clamped ones included. Compute quantities that vanish at rest
 // from u, not from x - X, which loses the digits of small displacements.
 struct NodalState {
-  double t;              // s
-  const NodalVector& x;  // positions, m: rest positions X plus u
-  const NodalVector& u;  // m
-  const NodalVector& v;  // m/s
+  double t;                // s
+  const NodalVector& x;    // positions, m: rest positions X plus u
+  const NodalVector& u;    // m
+  const NodalVector& v;    // m/s
+  double load_factor = 1;  // of statics: energies and stresses are those of the load times this factor
 };
 
 enum class EnergyKind { none, elastic, gravitational };

@@ -69,6 +69,8 @@ class Anisotropic : public Material {
           "Meaning of the indices 1 to 6: in most tables 4, 5, 6 are 23, 13, 12, in Abaqus (abaqus) 12, 13, 23.",
           {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
+    s.key("expansion", &A::expansion_, kExpansionSentence);
+    s.key("fibres", &A::fibres_, kFibresSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
       s.key(e.name, e.value,

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "lib/config/registry.h"
+#include "lib/material/expansion.h"
+#include "lib/material/fibres/fibres.h"
 #include "lib/material/stiffness.h"
 #include "lib/material/strength.h"
 
@@ -21,12 +23,20 @@ class Material {
   // Empty if no strengths are given; failure criteria are then unavailable.
   virtual std::optional<Strength> strength() const { return strength_; }
 
+  // Empty if no coefficients are given; the material then does not swell.
+  virtual std::optional<Expansion> expansion() const { return expansion_; }
+
+  // Empty if the material has no fibres besides its elasticity.
+  const std::optional<Fibres>& fibres() const { return fibres_; }
+
   // Changes made to the given constants, one sentence each.
   virtual std::vector<std::string> notes() const { return {}; }
 
  protected:
   double density_ = 0;
   std::optional<Strength> strength_;
+  std::optional<Expansion> expansion_;
+  std::optional<Fibres> fibres_;
 };
 
 inline constexpr const char* kStrengthSentence =

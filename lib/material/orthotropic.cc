@@ -48,6 +48,8 @@ class Orthotropic : public Material {
             .key("g23", &O::g23_, "Shear modulus in the plane 2-3.", modulus)
             .key("g13", &O::g13_, "Shear modulus in the plane 1-3.", modulus)
             .key("strength", &O::strength_, kStrengthSentence)
+            .key("expansion", &O::expansion_, kExpansionSentence)
+            .key("fibres", &O::fibres_, kFibresSentence)
             .key("symmetrise", &O::symmetrise_,
                  "For measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
             .key("repair", &O::repair_,

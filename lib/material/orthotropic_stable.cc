@@ -22,6 +22,8 @@ class OrthotropicStable : public Material {
             .key("shear_factor", &O::shear_factor_, "Factor of the shear moduli Gij = sqrt(Ei Ej)/(2 (1 + nu)).",
                  {.range = kPositive})
             .key("strength", &O::strength_, kStrengthSentence)
+            .key("expansion", &O::expansion_, kExpansionSentence)
+            .key("fibres", &O::fibres_, kFibresSentence)
             .check([](const O& o, const Config& config) {
               if (!is_stable(o.constants())) config.fail(explain_instability(o.constants()));
             });

@@ -19,6 +19,9 @@ class PresetMaterial : public Material {
                  {.unit = "kg/m^3", .range = kPositive})
             .key("strength", &P::strength_,
                  "Strengths along the material axes; default those of the preset, if it has any.")
+            .key("expansion", &P::expansion_,
+                 std::string(kExpansionSentence) + " Default: the shrinkage of the preset, if it has any.")
+            .key("fibres", &P::fibres_, kFibresSentence)
             .check([](const P& p, const Config& config) {
               const auto& preset = p.preset();
               if (!p.own_density_ && !preset.density)
@@ -34,6 +37,7 @@ class PresetMaterial : public Material {
   double density() const override { return own_density_ ? *own_density_ : preset().density.value_or(0); }
   Stiffness stiffness() const override { return orthodyn::stiffness(preset().constants); }
   std::optional<Strength> strength() const override { return strength_ ? strength_ : preset().strength; }
+  std::optional<Expansion> expansion() const override { return expansion_ ? expansion_ : preset().expansion; }
 
  private:
   const Preset& preset() const { return presets()[static_cast<std::size_t>(name_)]; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/config/values.h"
+#include "lib/material/expansion.h"
 #include "lib/material/orthotropy.h"
 #include "lib/material/preset_table.h"
 #include "lib/material/strength.h"
@@ -14,10 +15,11 @@ namespace orthodyn {
 
 struct Preset {
   std::string name;
-  OrthotropicConstants constants;    // Pa
-  std::optional<double> density;     // kg/m^3; none if the source gives none
-  std::optional<Strength> strength;  // none if the source gives none
-  std::string axes;                  // meaning of 1, 2, 3
+  OrthotropicConstants constants;      // Pa
+  std::optional<double> density;       // kg/m^3; none if the source gives none
+  std::optional<Strength> strength;    // none if the source gives none
+  std::optional<Expansion> expansion;  // none if the source gives none
+  std::string axes;                    // meaning of 1, 2, 3
   std::string source;
 };
 

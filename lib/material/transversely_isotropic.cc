@@ -33,6 +33,8 @@ class TransverselyIsotropic : public Material {
             .key("shear_axial", &M::shear_axial_, "Shear modulus G12 = G13 of the planes that contain the fibre.",
                  modulus)
             .key("strength", &M::strength_, kStrengthSentence)
+            .key("expansion", &M::expansion_, kExpansionSentence)
+            .key("fibres", &M::fibres_, kFibresSentence)
             .key("repair", &M::repair_,
                  "Treatment of constants that make the material unstable. none: refuse them. shrink: multiply both "
                  "ratios by the largest factor that makes it stable, with a warning.")

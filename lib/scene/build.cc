@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/material_axes/axes_source.h"
+#include "lib/scene/added_laws.h"
 #include "lib/scene/elastic_parts.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
@@ -72,6 +73,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.exact_stiffness = all([](const ElasticityOptions& e) { return e.has_exact_tangent(); });
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
   traits.conservative = !traits.dissipative && all([](const ElasticityOptions& e) { return !e.is_warped(); });
+  declare_added_laws(scene, regions, traits);
   for (const SupportMotion& motion : scene.motions) motion.declare(traits);
   for (const TermChoice* term : scene.force_terms()) term->declare(traits);
   return traits;
@@ -224,8 +226,12 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
-  add_elasticity(scene, std::move(elastic), elements, parts);
+  auto added = add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
+  for (auto& term : added) {
+    if (parts.subdomain) parts.load_descriptions.push_back(term->description());
+    parts.loads.push_back(std::move(term));
+  }
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);
   add_note_on_means(scene, built.model->parts().mesh, built.warnings);

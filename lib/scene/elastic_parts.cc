@@ -10,9 +10,11 @@
 #include <type_traits>
 
 #include "lib/fem/element_groups.h"
+#include "lib/fem/terms/observed_elastic_term.h"
 #include "lib/material/stiffness_contrast.h"
 #include "lib/mesh/cell_rows.h"
 #include "lib/mesh/stack.h"
+#include "lib/scene/added_laws.h"
 #include "lib/scene/layup.h"
 
 namespace orthodyn {
@@ -80,7 +82,9 @@ bool is_mixed(const Scene& scene, const Region& region, const Material& material
   const std::string obstacle = !type.has_mixed_formulation()
                                    ? fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural)
                                : elasticity_of(scene, region).is_warped() ? "with elasticity.corotation: warped"
-                                                                          : "";
+                               : region.law == ElasticLaw::neo_hookean    ? "with law: neo_hookean"
+                               : swells(scene, material) ? "for a material that swells by moisture or temperature"
+                                                         : "";
   if (region.formulation == Formulation::mixed && !obstacle.empty())
     region.origin.fail("formulation: mixed is not available " + obstacle);
   return obstacle.empty() &&
@@ -266,7 +270,9 @@ ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>&
   return out;
 }
 
-void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own, FemModel::Parts& parts) {
+std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own,
+                                                       FemModel::Parts& parts) {
+  std::vector<std::unique_ptr<AddedTerm>> added_terms;
   const ElementMesh elements(parts.mesh);
   for (ElasticPart& part : elastic.parts) {
     const Region& entry = *part.entry;
@@ -275,17 +281,28 @@ void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh&
     const ElementAxes axes = cells.here.empty() ? ElementAxes(Mat3::Identity())
                                                 : element_axes(*entry.axes, part.axes, *part.type, elements,
                                                                parts.subdomain ? cells.numbers : cells.here);
-    parts.elastic.push_back(part.type->elastic_term(
+    const Stiffness stiffness = scaled(part.material->stiffness(), part.stiffness_factor);
+    auto laws = added_laws(scene, part, voigt(stiffness), elements, parts.subdomain ? cells.numbers : cells.here);
+    auto term = part.type->elastic_term(
         own,
-        {part.name, std::move(cells.here), scaled(part.material->stiffness(), part.stiffness_factor), axes,
-         stiffness_damping(scene, entry), elasticity_of(scene, entry), part.material->strength(),
-         std::move(cells.numbers), all, parts.mesh.region_names[part.region], part.ply,
-         parts.subdomain ? part.cells : std::vector<int>(), part.share, part.stiffness_cell, part.stiffness_factor,
-         is_mixed(scene, entry, *part.material, *part.type)},
-        *parts.pattern));
+        {part.name, std::move(cells.here), stiffness, axes, stiffness_damping(scene, entry),
+         elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
+         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share,
+         part.stiffness_cell, part.stiffness_factor, is_mixed(scene, entry, *part.material, *part.type)},
+        *parts.pattern);
+    std::vector<const AddedTerm*> added;
+    for (auto& law : laws) {
+      added_terms.push_back(part.type->added_term(own, *term, std::move(law), *parts.pattern));
+      added.push_back(added_terms.back().get());
+    }
+    if (!added.empty())
+      term = std::make_unique<ObservedElasticTerm>(std::move(term), std::move(added),
+                                                   entry.law == ElasticLaw::neo_hookean ? "neo-Hookean" : "");
+    parts.elastic.push_back(std::move(term));
     parts.densities.push_back(part.density);
   }
   parts.ply_types = std::move(elastic.ply_types);
+  return added_terms;
 }
 
 }  // namespace orthodyn

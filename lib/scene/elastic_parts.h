@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/fem/fem_model.h"
+#include "lib/fem/terms/added_term.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/scene/scene.h"
 
@@ -43,8 +44,10 @@ ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>&
 // mesh that this entry describes.
 Box grid_box(const Scene& scene, const std::string& name, const Mesh& mesh);
 
-// Adds the elastic terms to `parts`. `own`: the elements of this rank. Axes are evaluated on the whole mesh.
-void add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own, FemModel::Parts& parts);
+// Adds the elastic terms to `parts`, and returns the terms of the added laws. `own`: the elements of this rank. Axes
+// and fields are evaluated on the whole mesh.
+std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, ElasticParts elastic, const ElementMesh& own,
+                                                       FemModel::Parts& parts);
 
 // Stiffness-proportional damping (s) of the region, else of the scene, else 0.
 double stiffness_damping(const Scene& scene, const Region& region);

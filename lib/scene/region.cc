@@ -22,6 +22,12 @@ struct EnumNames<Formulation> {
       {{Formulation::automatic, "auto"}, {Formulation::displacement, "displacement"}, {Formulation::mixed, "mixed"}}};
 };
 
+template <>
+struct EnumNames<ElasticLaw> {
+  static constexpr std::array<std::pair<ElasticLaw, const char*>, 2> list{
+      {{ElasticLaw::corotational, "corotational"}, {ElasticLaw::neo_hookean, "neo_hookean"}}};
+};
+
 std::vector<std::string> Region::materials() const {
   if (layup.empty()) return {material};
   std::vector<std::string> all;
@@ -30,39 +36,45 @@ std::vector<std::string> Region::materials() const {
 }
 
 const Spec<Region>& Region::spec() {
-  static const auto s = Spec<Region>()
-                            .key("material", &Region::material, "One of `materials`; required without a layup.")
-                            .key("layup", &Region::layup,
-                                 "Plies from bottom to top along axis 3 of `axes`, which goes through the thickness: "
-                                 "each with its material, the angle from axis 1 of `axes` to axis 1 of the material "
-                                 "about axis 3, and its thickness (m). For hexahedra and wedges; a cell may have "
-                                 "several plies.")
-                            .key("axes", &Region::axes, "Directions of the material axes, uniform or varying in space.",
-                                 {.fallback = "{type: directions}"})
-                            .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
-                                 {.unit = "s", .range = kNonNegative})
-                            .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.")
-                            .key("integration", &Region::integration,
-                                 "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
-                                 "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "
-                                 "points such rows have hourglass modes (shapes without stiffness). auto: full if the "
-                                 "region has such rows.")
-                            .key("formulation", &Region::formulation,
-                                 "mixed: with a separate pressure in each element, accurate for nearly incompressible "
-                                 "materials, whose stresses are wrong with displacements alone; not for linear "
-                                 "tetrahedra and elasticity.corotation: warped. auto: mixed for nearly incompressible "
-                                 "materials.")
-                            .key("stiffness_factors", &Region::stiffness_factors,
-                                 "Factors of the stiffness on a grid over the region, for bodies that are softer in "
-                                 "places. They can be found by a fit.")
-                            .check([](const Region& region, const Config& config) {
-                              if (region.stiffness_factors && !region.layup.empty())
-                                config.at("stiffness_factors").fail("is not available for a region with a layup");
-                              if (region.material.empty() && region.layup.empty())
-                                config.fail("key 'material' is missing: give a material or a layup");
-                              if (!region.material.empty() && !region.layup.empty())
-                                config.at("material").fail("has no effect beside a layup; remove one of them");
-                            });
+  static const auto s =
+      Spec<Region>()
+          .key("material", &Region::material, "One of `materials`; required without a layup.")
+          .key("layup", &Region::layup,
+               "Plies from bottom to top along axis 3 of `axes`, which goes through the thickness: "
+               "each with its material, the angle from axis 1 of `axes` to axis 1 of the material "
+               "about axis 3, and its thickness (m). For hexahedra and wedges; a cell may have "
+               "several plies.")
+          .key("axes", &Region::axes, "Directions of the material axes, uniform or varying in space.",
+               {.fallback = "{type: directions}"})
+          .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
+               {.unit = "s", .range = kNonNegative})
+          .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.")
+          .key("law", &Region::law,
+               "corotational: linear in the strain of the turned material. neo_hookean: for isotropic "
+               "materials at large strain, such as rubber; its energy keeps elements from inverting.")
+          .key("integration", &Region::integration,
+               "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
+               "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "
+               "points such rows have hourglass modes (shapes without stiffness). auto: full if the "
+               "region has such rows.")
+          .key("formulation", &Region::formulation,
+               "mixed: with a separate pressure in each element, accurate for nearly incompressible "
+               "materials, whose stresses are wrong with displacements alone; not for linear "
+               "tetrahedra and elasticity.corotation: warped. auto: mixed for nearly incompressible "
+               "materials.")
+          .key("stiffness_factors", &Region::stiffness_factors,
+               "Factors of the stiffness on a grid over the region, for bodies that are softer in "
+               "places. They can be found by a fit.")
+          .check([](const Region& region, const Config& config) {
+            if (region.stiffness_factors && !region.layup.empty())
+              config.at("stiffness_factors").fail("is not available for a region with a layup");
+            if (region.law == ElasticLaw::neo_hookean && region.kinematics)
+              config.at("kinematics").fail("has no effect with law: neo_hookean; remove it");
+            if (region.material.empty() && region.layup.empty())
+              config.fail("key 'material' is missing: give a material or a layup");
+            if (!region.material.empty() && !region.layup.empty())
+              config.at("material").fail("has no effect beside a layup; remove one of them");
+          });
   return s;
 }
 
@@ -112,6 +124,7 @@ void complete_regions(const Config& config, Scene& scene) {
 ElasticityOptions elasticity_of(const Scene& scene, const Region& region) {
   ElasticityOptions options = scene.elasticity;
   options.kinematics = region.kinematics.value_or(options.kinematics);
+  if (region.law == ElasticLaw::neo_hookean) options = {};  // the law has no variants
   return options;
 }
 

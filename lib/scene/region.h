@@ -25,6 +25,9 @@ enum class Integration { automatic, reduced, full };
 // automatic: mixed for nearly incompressible materials, if the elements have a mixed formulation.
 enum class Formulation { automatic, displacement, mixed };
 
+// Elastic law: the corotational one (elasticity.kinematics chooses its variant), or neo-Hookean.
+enum class ElasticLaw { corotational, neo_hookean };
+
 struct Region {
   std::string material;    // empty if there is a layup
   std::vector<Ply> layup;  // from bottom to top; empty for a region of one material
@@ -32,6 +35,7 @@ struct Region {
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
   std::optional<StiffnessFactors> stiffness_factors;
+  ElasticLaw law = ElasticLaw::corotational;
   Integration integration = Integration::automatic;
   Formulation formulation = Formulation::automatic;
   SourceLocation origin;

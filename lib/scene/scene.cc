@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/material/material.h"
+#include "lib/scene/added_laws.h"
 #include "lib/scene/mesh_materials.h"
 
 namespace orthodyn {
@@ -79,6 +80,12 @@ const Spec<Scene>& Scene::spec() {
           .key("elasticity", &Scene::elasticity, "Kinematics of the elastic law.")
           .key("mass", &Scene::mass, "Mass matrix.")
           .key("damping", &Scene::damping, "Rayleigh damping.")
+          .key("moisture", &Scene::moisture,
+               "Change of the moisture content, by which materials with `expansion: {moisture: ...}` swell or shrink.")
+          .key("temperature", &Scene::temperature,
+               "Change of the temperature, by which materials with `expansion: {temperature: ...}` expand.")
+          .key("activation", &Scene::activation,
+               "Activation, by which materials with `fibres: {active: ...}` contract.")
           .key("gravity", &Scene::gravity, "Acceleration of free fall.", {.unit = "m/s^2"})
           .key("loads", &Scene::loads, "Loads on surfaces.")
           .key("terms", &Scene::terms, "Further terms by type; docs/extend.md explains how to add your own.")
@@ -176,6 +183,9 @@ void require_time_of_statics(const Config& config, const Scene& scene) {
     scene.terms[k]->declare(traits);
     if (traits.time_dependent) config.at("terms").at(k).fail(kAsk);
   }
+  for (const auto* change : {&scene.moisture, &scene.temperature})
+    if (*change && !(*change)->constant()) (*change)->origin.fail(kAsk);
+  if (scene.activation && !scene.activation->constant()) scene.activation->origin.fail(kAsk);
   for (const SupportMotion& motion : scene.motions)
     if (varies_in_time(motion))
       motion.origin.fail("the motion varies in time: give time: {end: ...}, at which statics evaluate it");
@@ -250,6 +260,11 @@ void refuse_other_times(const Config& config, const Scene& scene) {
     if (traits.time_dependent && !scene.terms[k]->factor_in_time())
       config.at("terms").at(k).fail("varies in time, which a harmonic analysis does not compute");
   }
+  for (const auto* change : {&scene.moisture, &scene.temperature})
+    if (*change && !(*change)->constant())
+      (*change)->origin.fail("varies in time, which a harmonic analysis does not compute");
+  if (scene.activation && !scene.activation->constant())
+    scene.activation->origin.fail("varies in time, which a harmonic analysis does not compute");
 }
 
 bool vibrates(const Config& config, const Scene& scene) {
@@ -390,6 +405,7 @@ Scene read_scene(const Config& input) {
   if (scene.harmonic) check_losses(scene);
   require_admissible_materials(config, scene);
   complete_regions(config, scene);
+  check_added_laws(config, scene);
   require_countable_times(config, scene);
   return scene;
 }

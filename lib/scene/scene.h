@@ -15,6 +15,7 @@
 #include "lib/material/material.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/ode/integrator.h"
+#include "lib/scene/activation.h"
 #include "lib/scene/damping.h"
 #include "lib/scene/elasticity.h"
 #include "lib/scene/events.h"
@@ -24,6 +25,7 @@
 #include "lib/scene/output_files.h"
 #include "lib/scene/places.h"
 #include "lib/scene/region.h"
+#include "lib/scene/state_change.h"
 #include "lib/statics/equilibrium.h"
 #include "lib/statics/load_stepper.h"
 
@@ -90,6 +92,8 @@ struct Scene {
   Elasticity elasticity;
   MassKind mass = MassKind::lumped;
   std::optional<Damping> damping;
+  std::optional<StateChange> moisture, temperature;
+  std::optional<Activation> activation;
   std::optional<GravityChoice> gravity;
   std::vector<Load> loads;
   std::vector<std::shared_ptr<const TermChoice>> terms;

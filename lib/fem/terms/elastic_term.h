@@ -43,6 +43,8 @@ struct ElasticRegion {
   bool mixed = false;           // formulation for nearly incompressible materials (mixed_elastic_term.h)
 };
 
+class AddedTerm;
+
 class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
@@ -66,6 +68,9 @@ class ElasticTerm : public Term {
 
   // Strain, stress and axes of element k, for its mean deformation gradient.
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
+
+  // The terms of added laws (lib/fem/added_laws) in this region. They are terms of their own in the model.
+  virtual std::vector<const AddedTerm*> added() const { return {}; }
 
   // Type of the region's elements.
   virtual const ElementType& type() const = 0;

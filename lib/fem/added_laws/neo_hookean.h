@@ -1,0 +1,13 @@
+// The neo-Hookean law (lib/element/neo_hookean.h) in place of the corotational one, for large strains of rubber. The
+// region's elastic term then observes strains only (ObservedElasticTerm).
+#pragma once
+
+#include <memory>
+
+#include "lib/fem/added_laws/added_law.h"
+
+namespace orthodyn {
+
+std::unique_ptr<AddedLaw> make_neo_hookean(const IsotropicStiffness& stiffness);
+
+}  // namespace orthodyn

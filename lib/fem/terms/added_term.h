@@ -1,0 +1,25 @@
+// The term of an added law (lib/fem/added_laws) in one region. Made by ElementType::added_term().
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "lib/fem/element_mesh.h"
+#include "lib/fem/term.h"
+
+namespace orthodyn {
+
+class AddedTerm : public Term {
+ public:
+  // Calls visit(k, point, Cauchy stress in space, stress in the turning material axes), in Pa, for all points of all
+  // elements, concurrently for different elements, or for the points of element k. k as in ElasticTerm.
+  using VisitStress = std::function<void(int k, int point, const Mat3& cauchy, const Mat3& turned)>;
+  virtual void visit_stresses(const NodalState& s, const VisitStress& visit) const = 0;
+  virtual void visit_stresses_of(int k, const NodalState& s, const VisitStress& visit) const = 0;
+  virtual double volume(int k, int point) const = 0;  // m^3, at rest
+
+  // This term with corotational kinematics; the arguments are those of ElementType::added_term().
+  virtual std::unique_ptr<AddedTerm> corotational(const ElementMesh& mesh, const BlockPattern& pattern) const = 0;
+};
+
+}  // namespace orthodyn
