@@ -145,6 +145,7 @@ AdjointSolution BackwardProblem::solution() {
   out.momentum.resize(model_.num_dofs());
   model_.multiply_mass(velocities(adjoint_.get()), out.momentum);
   out.backward_steps = steps_ + steps_of_library();
+  out.rtol = kTolerance * options_.rtol;
   return out;
 }
 

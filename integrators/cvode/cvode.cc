@@ -72,7 +72,10 @@ class Cvode final : public SundialsIntegrator {
     std::vector<State> states;
     long forward_steps = 0;
     for (double t = begin; const double stop : stops) {
-      while (t < stop) forward_step(std::min(stop, limits.latest_end(t)), ++forward_steps, t);
+      while (t < stop) {
+        forward_step(std::min(stop, limits.latest_end(t)), ++forward_steps, t);
+        equations.on_forward_step(t);
+      }
       states.push_back({t, positions(y()), velocities(y())});
     }
     BackwardProblem backward(memory(), model_, options_, method_.max_order, scales_, equations, y(), callback_context_,

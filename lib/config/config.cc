@@ -57,6 +57,16 @@ struct Config::Document {
   std::map<std::string, std::string> former = {};  // by path: keys under which renamed ones were parsed
 };
 
+namespace {
+
+// Whether a section has keys that are all indices of a list.
+bool has_indices(const Config& at) {
+  const auto is_index = [](const std::string& key) { return key.find_first_not_of("0123456789") == std::string::npos; };
+  return at.is_map() && at.size() > 0 && std::ranges::all_of(at.keys(), is_index);
+}
+
+}  // namespace
+
 struct Config::Place {
   std::shared_ptr<Document> document;
   YAML::Node node;
@@ -279,6 +289,10 @@ void Config::fail(const std::string& message, InputFault fault) const {
 }
 
 void Config::fail_expected(const std::string& expected, const std::string& hint) const {
+  if (expected.starts_with("a list") && has_indices(*this))  // --set values.5=2 without `values`
+    fail(fmt::format("entry {} cannot be changed, because the list itself is not given: write the whole list",
+                     join(keys())),
+         InputFault::form);
   fail("expected " + expected + ", found " + shown() + hint, InputFault::form);
 }
 

@@ -114,7 +114,7 @@ void refuse_meaningless(const Config& section, const std::string& name, const st
                         const std::string& with_word) {
   if (!is_given(section, name)) return;
   section.at(name).fail("applies only with " + with_key + ": " + with_word + ", found " + with_key + ": " +
-                        section.at(with_key).text() + "; remove it (--set " + name + "=null)");
+                        section.at(with_key).text() + "; remove it, or set " + section.at(name).path() + " to null");
 }
 
 // Adds the type of the fallback "{type: cvode_bdf}" to `integrator: {rtol: 1e-5}`.

@@ -45,12 +45,16 @@ class AdjointEquations {
   // Computes b . (df/dp - dM/dp q'') for each parameter at a state of the motion. Throws RecoverableError as
   // Model::force() does.
   virtual void products(const State& state, const ConstVectorRef& b, VectorRef out) = 0;
+
+  // Called after each step of the motion with the time reached, s.
+  virtual void on_forward_step(double /*t*/) {}
 };
 
 struct AdjointSolution {
   Vector integral;     // of the products, by parameter
   Vector a, momentum;  // a and M b at the start
   long forward_steps = 0, backward_steps = 0;
+  double rtol = 0;  // of the adjoint equations
 };
 
 // A method whose choice also integrates adjoint equations derives from this class beside IntegratorChoice.

@@ -268,6 +268,9 @@ class OfAFit(OfAComparison):
 
 
 class OfNumbers(OfAComparison):
+    def test_a_small_negative_value_has_no_sign(self):
+        self.assertEqual(rounded(-4.6e-8, 0.015), "0.000")
+
     def test_values_are_rounded_to_two_digits_of_the_half_width(self):
         self.assertEqual([rounded(*pair) for pair in ((11.00003, 0.17), (0.002, 4.1e-5), (3.9e-4, 3.9e-6), (-950.0, 190.0),
                                                       (9.999, 0.0999), (1234567.0, 2e4), (0.0, 1e-5), (2.5, math.nan))],

@@ -170,6 +170,7 @@ TEST_F(BucklingSensitivities, AreATableOfTheRun) {
   write("column.yaml", kColumn + "buckling: {count: 2}\nsensitivities: [materials.m.young, loads.0.force.0]\n");
   const auto result = orthodyn("run column.yaml --out out");
   ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("out/sensitivities.csv"), std::string::npos) << result.output;
   EXPECT_NE(read_text(folder_ / "out/sensitivities.csv").find("d load_factor / d loads.0.force.0 [1 / SI unit]"),
             std::string::npos);
   const auto rows = read_rows(folder_ / "out/sensitivities.csv");

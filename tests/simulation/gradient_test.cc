@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "tests/simulation/run_program.h"
 
@@ -144,6 +145,58 @@ TEST_F(GradientOfAMotion, ConvergesWithRtol) {
   EXPECT_LT(fine, 0.05 * coarse);
 }
 
+TEST_F(GradientOfAMotion, ReportsItsProgressAndAccuracy) {
+  const std::string scene =
+      strip(std::string("elasticity: {kinematics: linear}\ndamping: {stiffness: 2 ms}\n") + kTight);
+  std::vector<GradientProgress> told;
+  GradientRequest request{"tip.displacement.z", 0.1, {"materials.wood.young.0"}};
+  request.on_progress = [&](const GradientProgress& progress) { told.push_back(progress); };
+  const Gradient found = gradient(Config::from_text(scene, "scene.yaml").resolving(), request);
+  using Stage = GradientProgress::Stage;
+  ASSERT_GT(told.size(), 10u);
+  EXPECT_EQ(told.front().stage, Stage::motion);
+  EXPECT_EQ(told.back().stage, Stage::adjoint);
+  double last = 0;  // time of the motion
+  for (const GradientProgress& one : told) {
+    EXPECT_NEAR(one.share, one.stage == Stage::motion ? one.at / 0.1 : 1 - one.at / 0.1, 1e-12);
+    if (one.stage == Stage::motion) EXPECT_GT(one.at, std::exchange(last, one.at));
+  }
+  EXPECT_NEAR(last, 0.1, 1e-12);
+  EXPECT_NEAR(told.back().share, 1, 0.05);
+  EXPECT_EQ(*found.rtol, 1e-8);
+  EXPECT_GE(found.adjoint_rtol, 1e-8);
+
+  write("scene.yaml", scene);
+  const CommandResult result = orthodyn("gradient scene.yaml --of tip.displacement.z --by materials.wood.young.0");
+  EXPECT_THAT(result.output, testing::HasSubstr("accuracy  rtol 1e-08 for the motion"));
+}
+
+// Cells have their numbers along x, y and z from 1; other parameters have none.
+TEST_F(GradientOfAMotion, IsATableWithTheCells) {
+  std::string scene = strip("elasticity: {kinematics: linear}\nanalysis: static\n");
+  for (const char* line : {"time: {end: 0.2}\n", "  history: {interval: 0.05}\n", "  frames: 0\n"})
+    scene.erase(scene.find(line), std::string(line).size());
+  const std::string factor = ", factor: {type: table, points: [[0, 1], [0.05, 1], [0.06, 0]]}";
+  scene.erase(scene.find(factor), factor.size());
+  scene.replace(scene.find("grid: [3, 1, 1], values: [1.2, 0.8, 1]"), 38, "grid: [3, 1, 2]");
+  scene.replace(scene.find(", velocity]"), 11, "]");
+  write("scene.yaml", scene);
+  const CommandResult result = orthodyn(
+      "gradient scene.yaml --of tip.displacement.z --by regions.body.stiffness_factors --by materials.wood.young.0 "
+      "--out out");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, testing::Not(testing::HasSubstr("accuracy")));
+  std::istringstream table(read_text(folder_ / "out/gradient.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_TRUE(line.ends_with(",i,j,k")) << line;
+  const char* const cells[] = {",1,1,1", ",2,1,1", ",3,1,1", ",1,1,2", ",2,1,2", ",3,1,2", ",,,"};
+  for (const char* cell : cells) {
+    ASSERT_TRUE(std::getline(table, line));
+    EXPECT_TRUE(line.ends_with(cell)) << line;
+  }
+}
+
 std::string refusal(const std::string& scene, const GradientRequest& request) {
   try {
     gradient(Config::from_text(scene, "scene.yaml").resolving(), request);
@@ -158,7 +211,7 @@ TEST(Gradient, IsRefusedWithTheReason) {
   const std::string scene = strip(kTight);
   const std::string path = "materials.wood.young.0";
   EXPECT_THAT(refusal(scene, {"tip.nodal_stress.xx", {}, {path}}), HasSubstr("'nodal_stress.xx' is no such quantity"));
-  EXPECT_THAT(refusal(scene, {"top.displacement.x", {}, {path}}), HasSubstr("no such probe; it has tip"));
+  EXPECT_THAT(refusal(scene, {"top.displacement.x", {}, {path}}), HasSubstr("no such probe or gauge; it has tip"));
   EXPECT_THAT(refusal(scene, {"tip.displacement.z", 0.3, {path}}), HasSubstr("outside of the time span"));
   EXPECT_THAT(refusal(scene, {"tip.displacement.z", {}, {}}), HasSubstr("at least one number"));
   EXPECT_THAT(refusal(scene, {"tip.displacement.z", {}, {"time.end"}}), HasSubstr("is no number of the model"));

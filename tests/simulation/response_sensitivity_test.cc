@@ -151,6 +151,7 @@ TEST_F(ResponseSensitivities, AreATableOfTheRun) {
   write("plate.yaml", kPlate + kHarmonic + "sensitivities: [harmonic.losses.wood.young.0, materials.wood.young.0]\n");
   const auto result = orthodyn("run plate.yaml --out out");
   ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("out/sensitivities.csv"), std::string::npos) << result.output;
   const std::string table = read_text(folder_ / "out/sensitivities.csv");
   for (const char* column : {"d tip.velocity.z / d materials.wood.young.0 [m/s / SI unit]",
                              "d tip.velocity.z.phase / d harmonic.losses.wood.young.0 [deg / SI unit]"})

@@ -120,6 +120,17 @@ TEST_F(StiffnessFactorInput, IsRefusedWithTheReason) {
   EXPECT_THAT(refusal("{grid: [2, 1, 1], values: [1, 1], file: f.csv}"), HasSubstr("beside 'file'"));
 }
 
+TEST_F(StiffnessFactorInput, CannotBeSetOneByOneWithoutTheList) {
+  std::string scene = bar(1, 1);
+  const auto begin = scene.find("{grid"), end = scene.find("}", begin) + 1;
+  scene.replace(begin, end - begin, "{grid: [2, 1, 1]}");
+  write("scene.yaml", scene);
+  const CommandResult result = orthodyn("check scene.yaml --set regions.body.stiffness_factors.values.1=0.5");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output, testing::HasSubstr("stiffness_factors.values: entry 1 cannot be changed, because the list "
+                                                "itself is not given: write the whole list"));
+}
+
 TEST_F(StiffnessFactorInput, FromAFileAreThoseOfTheList) {
   write("f.csv", "i,j,k,factor,x [m]\n2,1,1,1.7,1.5\n1,1,1,0.4,0.5\n");
   std::string scene = bar(1, 1);

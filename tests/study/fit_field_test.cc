@@ -89,6 +89,11 @@ TEST_F(FitOfAField, IsRefusedWithTheReason) {
   EXPECT_THAT(fit(fit_of({3}, "{path: materials.m.young, smoothness: 0.1}")).output, HasSubstr("is none"));
   EXPECT_THAT(fit(fit_of({3}, "{path: regions.body.stiffness_factors, smoothness: 0.1, start: -1}")).output,
               HasSubstr("positive"));
+  std::string many = kBar;
+  many.replace(many.find("grid: [4, 1, 1]"), 15, "grid: [4, 501, 1]");
+  write("bar.yaml", many);
+  EXPECT_THAT(fit(fit_of({3}, "{path: regions.body.stiffness_factors, smoothness: 0.1}")).output,
+              HasSubstr("has 2004 cells, and a fit finds at most 2000 factors"));
   std::string moving = kBar;
   moving.replace(moving.find("analysis: static"), 16, "time: {end: 0.01}\nintegrator: {type: cvode_bdf}");
   write("bar.yaml", moving);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lib/analysis/modes.h"
@@ -165,6 +166,42 @@ TEST_F(FitModes, WarnOfShapesThatBelongToNoneOrToSeveral) {
   EXPECT_NE(result.output.find("with a MAC of only"), std::string::npos) << result.output;
 }
 
+// Shapes tell which mode is meant, so that a list in another order gives the same result.
+TEST_F(FitModes, ByShapeMayHaveAnyOrder) {
+  Measured measured = measure(4);
+  for (std::size_t k = 0; k < 4; ++k) measured.frequencies[k] *= kErrors[k];
+  const auto value = [&] {
+    write("shapes.csv", table_of(measured));
+    const auto result =
+        fit("frequencies: " + list_of(measured.frequencies) + ", shapes: shapes.csv, direction: [0, 0, 1]",
+            "refine: false\nparameters: {E1: materials.spruce.young.0}\n");
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return table().at("parameters").at(0).at("value").get<double>();
+  };
+  const double ascending = value();
+  for (const auto& [a, b] : std::vector<std::pair<std::size_t, std::size_t>>{{0, 3}, {1, 2}}) {
+    std::swap(measured.frequencies[a], measured.frequencies[b]);
+    std::swap(measured.shapes[a], measured.shapes[b]);
+  }
+  EXPECT_NEAR(value(), ascending, 1e-6 * ascending);
+  EXPECT_EQ(table().at("data").at(0).at("mode").get<int>(), 4);
+}
+
+TEST_F(FitModes, AreRefusedInAHarmonicAnalysis) {
+  std::string scene = kPlate;
+  if (const auto time = scene.find("time:"); time != std::string::npos)
+    scene.erase(time, scene.find('\n', time) - time);
+  write("plate.yaml", scene +
+                          "\nanalysis: harmonic\nclamps: [{surface: x0}]\noutput: {probes: {p: {at: [0.3, 0, 0]}}}\n"
+                          "loads: [{surface: x1, force: [0, 0, 1], factor: {type: harmonic}}]\n"
+                          "harmonic: {frequencies: [10 Hz], damping_ratio: 0.01}\n");
+  const auto result = fit("mode: 1, value: 90", "parameters: {E1: materials.spruce.young.0}\n");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("the scene is a harmonic analysis, which computes responses only"), std::string::npos)
+      << result.output;
+  EXPECT_FALSE(fs::exists(folder_ / "out/fits/f/points"));
+}
+
 TEST_F(FitModes, RefuseMistakesBeforeAnythingRuns) {
   const std::string e1 = "parameters: {E1: materials.spruce.young.0}\n";
   const std::string list = "frequencies: [90, 140], ", shapes = "shapes: s.csv, direction: [0, 0, 1]";
@@ -174,8 +211,10 @@ TEST_F(FitModes, RefuseMistakesBeforeAnythingRuns) {
   };
   const Wrong wrong[] = {
       {list + shapes, "x [mm],y [mm],z [mm],mode 1\n0,0,4,1\n", "column 'mode 2' is missing"},
-      {list + shapes, "x [mm],y [mm],z [mm],mode 1,mode 2,mode 3\n0,0,4,1,2,3\n", "column 'mode 3' belongs to none"},
-      {"frequencies: [90, null], " + shapes, head + row + other, "column 'mode 2' belongs to none"},
+      {list + shapes, "x [mm],y [mm],z [mm],mode 1,mode 2,mode 3\n0,0,4,1,2,3\n",
+       "column 'mode 3' belongs to no measured frequency, of which there are 2. The columns are"},
+      {"frequencies: [90, null], " + shapes, head + row + other,
+       "column 'mode 2' belongs to no measured frequency, of which there is 1. The columns are"},
       {list + shapes, head + row + "300,0,4,3\n", "found 4 entries where 5"},
       {list + shapes, head + row + other + "0,0,0.4,1,2\n0,100,400,1,2\n", "(0, 0.1, 0.4) m is 0.396 m away"},
       {list + shapes, "x,y,z,mode 1,mode 2\n0,0,4,1,2\n300,0,4,3,2\n", "check units"},
@@ -187,6 +226,10 @@ TEST_F(FitModes, RefuseMistakesBeforeAnythingRuns) {
       {list + "shapes: s.csv, direction: [0, 0, 0]", head + row + other, "give a direction"},
       {list + "shapes: s.csv", head + row + other, "'direction' is missing"},
       {list + "shapes: other.csv, direction: [0, 0, 1]", head + row, "no such file"},
+      {list + shapes, "x,y,z,Mode 1,mode 2\n0,0,4,1,2\n",
+       "column 'Mode 1' belongs to no measured frequency, of which "
+       "there are 2; did you mean 'mode 1'?"},
+      {"frequencies: [140, 90]", "", "list them in ascending order (with 'shapes' any order is allowed)"},
       {"frequencies: [null, null]", "", "all are null"},
       {"mode: 1, value: 90, " + shapes, head + row + other, "a single 'mode' is matched by its number"},
       {"mode: 1, value: 90, match: nearest", "", "a single 'mode' is matched by its number"},

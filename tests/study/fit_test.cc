@@ -264,7 +264,7 @@ TEST_F(FitCommand, RefusesMistakesBeforeAnythingRuns) {
       {tension + "value: 0.1 mm, at: 0.2, deviation: 1 um}]}}\n" + e1, "this scene is static"},
       {tension + "table: gap.csv, column: z, deviation: 1 um}]}}\n" + e1, "this scene is static"},
       {tension + value + "parameters: {E1: materials.ply.young.0, E2: materials.ply.young.1}\n",
-       "1 measured values cannot determine 2 parameters"},
+       "1 measured value cannot determine 2 parameters"},
       {tension + value + "parameters: {nu: {path: materials.ply.nu12, lower: 0}}\n", "remove lower, upper and scale"},
       {tension + value + "parameters: {E1: {path: materials.ply.young.0, start: 1 kg}}\n", "kg"},
       {tension + value + e1 + "candidates: {c: {scene: strip.yaml, measured: [{mode: 1, value: 3, deviation: 1}]}}\n",

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "lib/core/spelling.h"
 #include "lib/simulation/output/files.h"
 #include "lib/study/fit/field_result.h"
 #include "lib/study/fit/fit_run.h"
@@ -114,7 +115,8 @@ int run(const StudyArguments& arguments) {
       folder, job_queue(arguments, worker_count(arguments)),
       [&](std::size_t count, const Job&, const EvaluationResult&, bool cached) { printer.run(count, cached); }};
   if (!arguments.quiet)
-    fmt::print("{} measured values, {} parameters\n", problem.data().size(), problem.parameters().size());
+    fmt::print("{}, {}\n", counted(std::ssize(problem.data()), "measured value"),
+               counted(std::ssize(problem.parameters()), "parameter"));
   Json table;
   try {
     table = fit_json(fit, problem,

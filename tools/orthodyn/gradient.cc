@@ -2,8 +2,11 @@
 #include "lib/simulation/sensitivity/gradient.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -11,6 +14,7 @@
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/outcome.h"
 #include "tools/orthodyn/command.h"
+#include "tools/orthodyn/print_nothrow.h"
 #include "tools/orthodyn/scene_options.h"
 
 namespace orthodyn {
@@ -26,11 +30,19 @@ struct GradientArguments {
   bool quiet = false;
 };
 
+// With columns i, j, k of the cells if there are stiffness factors.
 void write_table(const fs::path& file, const std::string& quantity, const Gradient& found) {
-  std::string text = fmt::format("parameter,value [SI unit],d {} / d parameter [{} / SI unit]\n", quantity, found.unit);
-  for (std::size_t i = 0; i < found.parameters.size(); ++i)
-    text += fmt::format("{},{:.10g},{:.10g}\n", found.parameters[i].path(), found.parameters[i].value(),
+  const auto is_cell = [](const std::array<int, 3>& cell) { return cell[0] > 0; };
+  const bool has_cells = std::ranges::any_of(found.cells, is_cell);
+  std::string text = fmt::format("parameter,value [SI unit],d {} / d parameter [{} / SI unit]{}\n", quantity,
+                                 found.unit, has_cells ? ",i,j,k" : "");
+  for (std::size_t i = 0; i < found.parameters.size(); ++i) {
+    text += fmt::format("{},{:.10g},{:.10g}", found.parameters[i].path(), found.parameters[i].value(),
                         found.derivatives[i]);
+    if (is_cell(found.cells[i])) text += fmt::format(",{}", fmt::join(found.cells[i], ","));
+    else if (has_cells) text += ",,,";
+    text += "\n";
+  }
   write_file(file, {text});
 }
 
@@ -48,12 +60,45 @@ void print_largest(const Gradient& found) {
   if (order.size() > kShown) fmt::print("  and {} parameters with smaller effects\n", order.size() - kShown);
 }
 
+// Prints a line every five seconds.
+class Printer {
+ public:
+  void operator()(const GradientProgress& progress) {
+    constexpr double kInterval = 5;  // s
+    const auto now = Clock::now();
+    if (std::chrono::duration<double>(now - told_).count() < kInterval) return;
+    told_ = now;
+    if (progress.stage == GradientProgress::Stage::equilibrium)
+      print_nothrow(fmt::format("load factor {:.6g}\n", progress.at));
+    else
+      print_nothrow(fmt::format("{:3.0f} %  of the {}, t = {:.4g} s\n", 100 * progress.share,
+                                progress.stage == GradientProgress::Stage::motion
+                                    ? "motion"
+                                    : "adjoint equations, which go back to the start",
+                                progress.at));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point told_ = Clock::now();
+};
+
+// Derivatives of motions: their error control, and how to see their errors.
+void print_accuracy(const Gradient& found) {
+  if (!found.rtol || found.adjoint_rtol == 0) return;
+  fmt::print(
+      "accuracy  rtol {:.2g} for the motion, {:.2g} for the adjoint equations, relative to the largest derivatives; "
+      "repeat with a smaller integrator.rtol to see the error\n",
+      *found.rtol, found.adjoint_rtol);
+}
+
 int compute_gradient(const GradientArguments& arguments) {
   const fs::path folder =
       arguments.out ? fs::path(*arguments.out) : fs::path("out") / "gradients" / fs::path(arguments.scene).stem();
   Config config = Config::from_file(arguments.scene);
   for (const std::string& assignment : arguments.set) config.override_with(assignment);
-  GradientRequest request{arguments.quantity, {}, arguments.paths};
+  GradientRequest request{arguments.quantity, {}, arguments.paths, {}};
+  if (!arguments.quiet) request.on_progress = Printer();
   if (arguments.at) request.at = read_number(Config::from_text(*arguments.at, "--at"), {.unit = "s"});
   const double begin = cpu_seconds_now();
   const Gradient found = gradient(config.resolving(), request);
@@ -64,8 +109,9 @@ int compute_gradient(const GradientArguments& arguments) {
   fmt::print("{} = {:.6g} {}\n", arguments.quantity, found.value, found.unit);
   print_largest(found);
   if (found.forward_steps > 0)
-    fmt::print("steps   {} forward, {} backward\n", found.forward_steps, found.backward_steps);
-  fmt::print("cost    {:.3g} s of CPU\ntable   {}\n", seconds, (folder / "gradient.csv").string());
+    fmt::print("steps     {} forward, {} backward\n", found.forward_steps, found.backward_steps);
+  print_accuracy(found);
+  fmt::print("cost      {:.3g} s of CPU\ntable     {}\n", seconds, (folder / "gradient.csv").string());
   return 0;
 }
 

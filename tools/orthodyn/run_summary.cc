@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "lib/core/number_format.h"
 #include "lib/core/parse_number.h"
@@ -75,6 +77,14 @@ void print_errors(const RunResult& result, int width) {
                e.error, e.unit == "1" ? "" : " " + e.unit, 100 * e.share());
 }
 
+// Names the folder, and the table of derivatives if there is one. `width`: width of the first column.
+void print_folder(const RunResult& result, int width) {
+  fmt::print("  {:<{}} {}\n", "results", width, result.folder.string());
+  const auto table = result.folder / "sensitivities.csv";
+  if (std::error_code error; std::filesystem::exists(table, error))
+    fmt::print("  {:<{}} {}\n", "derivatives", width, table.string());
+}
+
 std::string three(const Vec3& v, const char* format) {
   const auto number = [&](double x) { return fmt::format(fmt::runtime(format), x); };
   return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
@@ -121,7 +131,7 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
     fmt::print("  {:<15} never happened: {}\n", "events", join(motion.events_not_found));
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
-  fmt::print("  {:<15} {}\n", "results", result.folder.string());
+  print_folder(result, 15);
 }
 
 std::string turning_point_text(const CriticalPoint& turn) {
@@ -160,7 +170,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   for (const auto& [probe, value, error] : equilibrium.probes)
     fmt::print("  {:<20} displacement {} m{}\n", probe, three_known(value, error),
                error.allFinite() ? fmt::format(", mesh error about {} m", three(error, "{:.1e}")) : "");
-  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+  print_folder(result, 20);
 }
 
 void print_buckling(const RunResult& result, const BucklingResult& buckling) {
@@ -177,7 +187,7 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
         "  {} of the {} requested modes lie below load factor {:.4g}, where linear statics reach a strain of 10 %; "
         "higher ones are no buckling loads\n",
         buckling.modes.size(), buckling.wanted, buckling.limit);
-  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+  print_folder(result, 20);
 }
 
 void print_harmonic(const RunResult& result, const HarmonicResult& harmonic) {
@@ -198,7 +208,7 @@ void print_harmonic(const RunResult& result, const HarmonicResult& harmonic) {
   fmt::print("  largest amplitudes\n");
   for (const auto& [quantity, unit, frequency, amplitude] : harmonic.peaks)
     fmt::print("    {:<34} {:>10.4g} {:<6} at {:.6g} Hz\n", quantity, amplitude, unit, frequency);
-  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+  print_folder(result, 20);
 }
 
 void print_how_to_continue(const RunResult& result) {

@@ -11,12 +11,27 @@
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/sensitivity/gradient_quantity.h"
 #include "lib/simulation/sensitivity/parameter_products.h"
+#include "lib/simulation/sensitivity/stiffness_cell.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
 
 namespace {
+
+using Progress = std::function<void(const GradientProgress&)>;
+
+// Reports each equilibrium.
+class EquilibriumProgress : public Observer {
+ public:
+  explicit EquilibriumProgress(const Progress& progress) : progress_(progress) {}
+  void on_output(const ObservedState& observed) override {
+    if (progress_) progress_({GradientProgress::Stage::equilibrium, observed.t(), observed.t()});
+  }
+
+ private:
+  const Progress& progress_;
+};
 
 std::vector<SceneParameter> parameters_at(const Config& config, const std::vector<std::string>& paths) {
   std::vector<std::string> all;
@@ -33,12 +48,30 @@ std::vector<SceneParameter> parameters_at(const Config& config, const std::vecto
   return model_parameters(config, all, {"parameters"});
 }
 
+// Numbers of a stiffness factor's cell along x, y and z, from 1; zeros for another parameter.
+std::array<int, 3> cell_of(const std::string& path, const Scene& scene) {
+  for (const auto& [name, region] : scene.regions) {
+    const std::string begin = "regions." + name + ".stiffness_factors.values.";
+    if (!region.stiffness_factors || !StiffnessCell::is_path(path) || !path.starts_with(begin)) continue;
+    const std::array<int, 3>& grid = region.stiffness_factors->grid;
+    const int cell = std::stoi(path.substr(begin.size()));
+    return {cell % grid[0] + 1, cell / grid[0] % grid[1] + 1, cell / (grid[0] * grid[1]) + 1};
+  }
+  return {};
+}
+
 // G = the quantity at one time.
 class Equations final : public AdjointEquations {
  public:
-  Equations(const GradientQuantity& quantity, double t, ParameterProducts& products,
-            const std::vector<SceneParameter>& parameters)
-      : quantity_(quantity), times_{t}, products_(products), parameters_(parameters) {}
+  // All arguments must outlive this object.
+  Equations(const GradientQuantity& quantity, double start, double end, ParameterProducts& products,
+            const std::vector<SceneParameter>& parameters, const Progress& progress)
+      : quantity_(quantity),
+        start_(start),
+        times_{end},
+        products_(products),
+        parameters_(parameters),
+        progress_(progress) {}
 
   const std::vector<double>& times() const override { return times_; }
   void source(std::size_t, const State& state, VectorRef by_position, VectorRef by_velocity) override {
@@ -51,15 +84,24 @@ class Equations final : public AdjointEquations {
   std::optional<double> size() const override { return quantity_.size(at_time); }
   void products(const State& state, const ConstVectorRef& b, VectorRef out) override {
     products_.compute(state, b, out);
+    report(GradientProgress::Stage::adjoint, state.t);
   }
+  void on_forward_step(double t) override { report(GradientProgress::Stage::motion, t); }
 
   State at_time;  // set by source()
 
  private:
+  void report(GradientProgress::Stage stage, double t) const {
+    const double share = (t - start_) / (times_.front() - start_);
+    if (progress_) progress_({stage, t, stage == GradientProgress::Stage::motion ? share : 1 - share});
+  }
+
   const GradientQuantity& quantity_;
+  double start_;
   std::vector<double> times_;
   ParameterProducts& products_;
   const std::vector<SceneParameter>& parameters_;
+  const Progress& progress_;
 };
 
 void require_adjoint(const Setup& setup) {
@@ -76,15 +118,16 @@ void require_adjoint(const Setup& setup) {
 }
 
 Gradient of_equilibrium(const Setup& setup, const GradientQuantity& quantity, ParameterProducts& products,
-                        State& state) {
+                        const Progress& progress, State& state) {
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   const std::atomic<bool> never{false};
-  const Outcome outcome = run_static(*problem.path, *problem.stepper, {}, never);
+  EquilibriumProgress observer(progress);
+  const Outcome outcome = run_static(*problem.path, *problem.stepper, {&observer}, never);
   if (outcome.status != Outcome::Status::completed) throw RunError("no equilibrium was found: " + outcome.message);
   state = {problem.path->times().end, outcome.last.q, Vector::Zero(outcome.last.q.size())};
-  constexpr double kFullLoad = 1;
+  constexpr double kAllLoads = 1;
   Linearization tangent;
-  problem.path->linearize(kFullLoad, state.q, Vector::Zero(state.q.size()), TangentKind::exact, tangent);
+  problem.path->linearize(kAllLoads, state.q, Vector::Zero(state.q.size()), TangentKind::exact, tangent);
   std::vector<double> values(problem.path->pattern().row.size());
   problem.path->combine({0, 0, 1}, tangent, values.data());
   const auto factor = make_indefinite_solver(problem.path->pattern());
@@ -116,15 +159,15 @@ Vector adjoint_of_equilibrium(const Setup& setup, const Vector& a) {
 }
 
 Gradient of_motion(const Setup& setup, const GradientQuantity& quantity, double t, ParameterProducts& products,
-                   const std::vector<SceneParameter>& parameters, State& state) {
+                   const std::vector<SceneParameter>& parameters, const Progress& progress, State& state) {
   const auto* method = dynamic_cast<const AdjointIntegrator*>(setup.scene.integrator.get());
   if (!method)
     throw ConfigError("gradient", "adjoint equations are integrated by cvode_bdf: set integrator.type to it");
   if (setup.scene.start == Start::equilibrium && (setup.scene.initial || !setup.scene.motions.empty()))
     throw ConfigError("start",
                       "equilibrium with 'initial' or 'motions' is not available for gradients: use sensitivities");
-  Equations equations(quantity, t, products, parameters);
   const Task task = task_of(setup.scene, setup.built);
+  Equations equations(quantity, task.initial.t, t, products, parameters, progress);
   const AdjointSolution solution = method->integrate_adjoint(*setup.built.model, task, equations);
   Gradient found;
   state = equations.at_time;
@@ -140,6 +183,7 @@ Gradient of_motion(const Setup& setup, const GradientQuantity& quantity, double 
       found.derivatives.push_back(solution.integral[i] + solution.a.dot(start.q) + solution.momentum.dot(start.v));
     }
   found.forward_steps = solution.forward_steps, found.backward_steps = solution.backward_steps;
+  found.adjoint_rtol = solution.rtol;
   return found;
 }
 
@@ -159,14 +203,16 @@ Gradient gradient(const Config& config, const GradientRequest& request) {
   const auto parameters = parameters_at(chosen, request.paths);
   ParameterProducts products(chosen, scene, setup.built, parameters);
   State state;
-  Gradient found = scene.is_static() ? of_equilibrium(setup, quantity, products, state)
-                                     : of_motion(setup, quantity, t, products, parameters, state);
+  Gradient found = scene.is_static() ? of_equilibrium(setup, quantity, products, request.on_progress, state)
+                                     : of_motion(setup, quantity, t, products, parameters, request.on_progress, state);
   const ChangedMotion motion = scene.is_static() ? ChangedMotion::still : ChangedMotion::as_given;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     found.derivatives[i] += quantity.explicit_derivative(chosen, parameters[i], state, motion);
   found.value = quantity.value(state);
   found.unit = quantity.unit();
   found.parameters = parameters;
+  for (const SceneParameter& parameter : parameters) found.cells.push_back(cell_of(parameter.path(), scene));
+  if (!scene.is_static()) found.rtol = scene.integrator->settings().rtol;
   return found;
 }
 

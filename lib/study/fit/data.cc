@@ -56,7 +56,11 @@ class Reader {
       } catch (const ConfigError& e) {
         m.origin.fail(fmt::format("frequencies: number {}: {}", k + 1, e.what()));
       }
-      if (value < before) m.origin.fail(fmt::format("frequencies: number {} is below the one before it", k + 1));
+      if (value < before && m.match_by() != MatchBy::shape)
+        m.origin.fail(
+            fmt::format("frequencies: number {} is below the one before it; frequencies are matched with ascending "
+                        "computed ones, so list them in ascending order (with 'shapes' any order is allowed)",
+                        k + 1));
       before = matching.frequencies[k] = value;
       add_frequency(m, static_cast<int>(k) + 1, value, is_matched);
     }
@@ -67,6 +71,10 @@ class Reader {
 
   // `is_matched`: `mode` is the number of the frequency in the next entry of `matchings_`.
   void add_frequency(const Measurement& m, int mode, double value, bool is_matched) {
+    if (scene_.harmonic)
+      m.origin.fail(
+          "a natural frequency is measured, and the scene is a harmonic analysis, which computes responses only: give "
+          "the frequency to an experiment of its own, with scene: {file: ..., set: {analysis: null, harmonic: null}}");
     WantedMetric metric{.mode = mode};
     if (is_matched) metric.matching = static_cast<int>(matchings_.size());
     push(m, metric, fmt::format("frequency {}{}", is_matched ? "" : "of mode ", mode), value, "Hz", "Hz");

@@ -23,8 +23,8 @@ void refine_steps(Config& scene) {
   const Scene read = read_scene(scene.resolving());
   if (read.is_static()) return;
   const IntegratorSettings settings = read.integrator->settings();
-  if (settings.rtol) scene.set("integrator.rtol", *settings.rtol / 10);
-  else if (settings.step) scene.set("integrator.step", *settings.step / 2);
+  if (settings.rtol) scene.set("integrator.rtol", *settings.rtol / 10, "integrator.rtol of the refined run");
+  else if (settings.step) scene.set("integrator.step", *settings.step / 2, "integrator.step of the refined run");
 }
 
 bool any_exact(const PreparedExperiment& experiment) {

@@ -38,7 +38,8 @@ void fill_values(const std::string& path, Config& scene) {
     section.at("file").fail("factors from a file cannot be fitted; give 'grid', and 'values' if the start is not 1");
   if (section.has("values")) return;
   const std::size_t cells = StiffnessFactors::spec().read(section.resolving()).all().size();
-  scene.set_yaml(path + ".values", fmt::format("[{}]", fmt::join(std::vector<int>(cells, 1), ", ")));
+  scene.set_yaml(path + ".values", fmt::format("[{}]", fmt::join(std::vector<int>(cells, 1), ", ")),
+                 path + ".values of the fit");
 }
 
 ParameterField read_field(const std::string& path, const Config& scene) {

@@ -89,7 +89,8 @@ std::vector<std::string> field_warnings(const Result& result, const ParameterFie
   std::vector<std::string> out;
   const auto all = estimates_of(result, field);
   if (const auto count = std::ranges::count_if(all, &Estimate::at_bound); count > 0)
-    out.push_back(fmt::format("{}: {} of {} factors are at a bound", field.name, count, all.size()));
+    out.push_back(
+        fmt::format("{}: {} of {} factors {} at a bound", field.name, count, all.size(), count == 1 ? "is" : "are"));
   if (!result.shift) return out;
   std::size_t moved = 0;
   for (std::size_t cell = 0; cell < all.size(); ++cell) {

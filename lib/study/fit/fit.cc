@@ -127,8 +127,8 @@ const Spec<Measurement>& Measurement::spec() {
           .key("mode", &Measurement::mode, "A natural frequency by its number, not counting rigid modes.",
                {.unit = "", .range = {1, 1000}})
           .key("frequencies", &Measurement::frequencies,
-               "The lowest natural frequencies in ascending order, without rigid modes: [51.2 Hz, 80 Hz]; null for one "
-               "that was not measured.")
+               "The lowest natural frequencies in ascending order (with `shapes` in any order), without rigid modes: "
+               "[51.2 Hz, 80 Hz]; null for one that was not measured.")
           .key("match", &Measurement::match,
                "How `frequencies` find their computed modes. order: by number. nearest: the nearest frequencies in "
                "ascending order within `band`; computed modes may be left out, for lists that lack a mode. shape: by "
@@ -205,10 +205,11 @@ const Spec<Parameter>& Parameter::spec() {
                "log: the search changes the value by factors. linear: by differences. Default: log for positive "
                "numbers; linear for angles and negative numbers. Poisson's ratios have their own coordinates, in which "
                "every material is stable.")
-          .key("smoothness", &Parameter::smoothness,
-               "For the path of a region's stiffness_factors, which stands for the factors of all cells of its grid: "
-               "standard deviation of the logarithm of the ratio of neighbouring factors, 0.1 for 10 %.",
-               {.range = kPositive});
+          .key(
+              "smoothness", &Parameter::smoothness,
+              "For the path of a region's stiffness_factors, which stands for the factors of all cells of its grid, at "
+              "most 2000: standard deviation of the logarithm of the ratio of neighbouring factors, 0.1 for 10 %.",
+              {.range = kPositive});
   return s;
 }
 

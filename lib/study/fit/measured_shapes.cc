@@ -16,6 +16,11 @@ namespace {
 
 std::string title_of_mode(std::size_t k) { return fmt::format("mode {}", k + 1); }
 
+bool is_title_of_mode(const std::string& name) {
+  constexpr std::string_view kMode = "mode ";
+  return name.starts_with(kMode) && name.find_first_not_of("0123456789", kMode.size()) == std::string::npos;
+}
+
 // The table, with columns by their names without units.
 class ShapeTable {
  public:
@@ -28,8 +33,10 @@ class ShapeTable {
     for (const std::string& name : names_) {
       if (std::ranges::count(names_, name) > 1) fail(fmt::format("column '{}' occurs twice", name));
       if (std::ranges::count(wanted, name) > 0) continue;
-      fail(fmt::format("column '{}' belongs to none of the {} measured frequencies{} The columns are {}", name,
-                       wanted.size() - 3, did_you_mean(name, wanted, "."), join(wanted)));
+      // Another number than the wanted ones is no misspelling.
+      const std::string meant = is_title_of_mode(name) ? "." : did_you_mean(name, wanted, ".");
+      fail(fmt::format("column '{}' belongs to no measured frequency, of which there {}{} The columns are {}", name,
+                       wanted.size() == 4 ? "is 1" : fmt::format("are {}", wanted.size() - 3), meant, join(wanted)));
     }
     for (const std::string& name : wanted)
       if (std::ranges::count(names_, name) == 0)

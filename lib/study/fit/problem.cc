@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lib/core/spelling.h"
 #include "lib/core/units.h"
 #include "lib/simulation/run/scene_file.h"
 #include "lib/simulation/sensitivity/motion_sensitivity.h"
@@ -90,7 +91,7 @@ void Problem::prepare(const Named<Experiment>& experiments, bool are_candidates)
     const auto is_of_motion = [](const Measurement& m) { return !m.mode && m.frequencies.empty(); };
     const bool has_motion = std::any_of(experiment.measured.begin(), experiment.measured.end(), is_of_motion);
     if (!has_motion && scene.is_map() && !scene.has("time") && !scene.has("analysis"))
-      scene.set("time.end", 1.0);  // needed, but without effect
+      scene.set("time.end", 1.0, "time.end of a scene of natural frequencies");  // needed, but without effect
     Data data = data_of(experiment, scene.resolving());
     experiments_.push_back(
         {name, scene, std::move(data.data), std::move(data.matchings), std::move(data.series), {}, are_candidates});
@@ -124,6 +125,15 @@ void check_field(const std::string& name, const Parameter& parameter,
                         datum.title, experiment.name));
 }
 
+void require_few_cells(const ParameterField& field, const SourceLocation& origin) {
+  constexpr std::size_t kMost = 2000;
+  if (field.size() <= kMost) return;
+  origin.fail(fmt::format(
+      "the grid of '{}' has {} cells, and a fit finds at most {} factors, because its time grows with their "
+      "cube: give a coarser grid",
+      field.path, field.size(), kMost));
+}
+
 }  // namespace
 
 std::vector<std::size_t> Problem::single_parameters() const {
@@ -139,6 +149,7 @@ void Problem::add_field(const std::string& name, const Parameter& parameter, con
   for (PreparedExperiment& experiment : experiments_)
     if (is_field(parameter.path, experiment.scene)) fill_values(parameter.path, experiment.scene);
   ParameterField field = read_field(parameter.path, scene);
+  require_few_cells(field, parameter.origin);
   field.name = name, field.first = parameters_.size(), field.smoothness = *parameter.smoothness;
   for (const PreparedExperiment& experiment : experiments_)
     if (is_field(parameter.path, experiment.scene) &&
@@ -258,9 +269,10 @@ void Problem::require_enough_data(const Fit& fit) const {
   std::size_t pairs = 0;
   for (const ParameterField& field : fields_) pairs += field.neighbours().size();
   if (values + priors + pairs >= parameters_.size()) return;
-  fit.origin.fail(fmt::format(
-      "{} measured values{} cannot determine {} parameters: add measured values or priors, or fit fewer parameters",
-      values, priors > 0 ? fmt::format(" and {} priors", priors) : "", parameters_.size()));
+  fit.origin.fail(fmt::format("{}{} cannot determine {}: add measured values or priors, or fit fewer parameters",
+                              counted(std::ssize(data()), "measured value"),
+                              priors > 0 ? " and " + counted(static_cast<long>(priors), "prior") : "",
+                              counted(std::ssize(parameters_), "parameter")));
 }
 
 std::vector<const Datum*> Problem::data(Experiments which) const {

@@ -64,8 +64,9 @@ std::string fit_text(const Json& table) {
     if (!p.at("profile").is_null()) out += fmt::format("  {:16} {:>14} {:>30}\n", "", "", profile_text(p));
   }
   const Json& noise = table.at("noise");
-  out += fmt::format("chi-square {:.4g} with {} degrees of freedom", number_or_nan(noise.at("chi_square")),
-                     noise.at("freedom").get<long>());
+  const long freedom = noise.at("freedom").get<long>();
+  out += fmt::format("chi-square {:.4g} with {} degree{} of freedom", number_or_nan(noise.at("chi_square")), freedom,
+                     freedom == 1 ? "" : "s");
   if (!noise.at("probability").is_null())
     out += fmt::format(", probability {:.2g}", number_or_nan(noise.at("probability")));
   if (!noise.at("bic").is_null()) out += fmt::format(", BIC {:.4g}", number_or_nan(noise.at("bic")));

@@ -17,13 +17,17 @@ constexpr std::size_t kFewestForRuns = 10;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
+using Svd = Eigen::BDCSVD<Eigen::MatrixXd>;
 
 Svd svd_of(const Eigen::MatrixXd& weighted) {
   // Rows of zeros, so that V has all columns also if there are fewer data than parameters.
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(std::max(weighted.rows(), weighted.cols()), weighted.cols());
   padded.topRows(weighted.rows()) = weighted;
-  return Svd(padded, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  constexpr int kSmall = 100;  // Jacobi rotations up to so many columns; more would take minutes
+  Svd svd;
+  svd.setSwitchSize(kSmall);
+  svd.compute(padded, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return svd;
 }
 
 bool is_determined(const Svd& svd, Eigen::Index k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/spelling.h"
 #include "lib/fem/fem_model.h"
 #include "lib/mesh/mesh_point.h"
 #include "lib/study/quantities/assignment.h"
@@ -129,8 +130,9 @@ std::vector<ModeMatch> match_by_shape(const ModeMatching& measured, const std::v
   const std::vector<std::size_t> rows = rows_of(measured);
   if (rows.size() > computed.size()) {
     for (const std::size_t row : rows)
-      out[row].failure = fmt::format("the model has {} elastic modes, fewer than the {} measured frequencies",
-                                     computed.size(), rows.size());
+      out[row].failure =
+          fmt::format("the model has {}, fewer than the {}", counted(std::ssize(computed), "elastic mode"),
+                      rows.size() == 1 ? "measured frequency" : fmt::format("{} measured frequencies", rows.size()));
     return out;
   }
   Eigen::MatrixXd gains(std::ssize(rows), std::ssize(computed));

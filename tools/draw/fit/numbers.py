@@ -19,7 +19,8 @@ def rounded(value, width, fewest=3):
     last = FIGURES - 1 - int(f"{width:.{FIGURES - 1}e}".split("e")[1])  # decimal places
     largest = max(abs(value), width)
     if 1e-3 <= largest < 1e6:
-        return minus(f"{round(value, min(last, 12)):.{min(max(last, 0), 12)}f}")
+        shown = round(value, min(last, 12)) + 0.0  # 0.0 instead of -0.0
+        return minus(f"{shown:.{min(max(last, 0), 12)}f}")
     if value == 0:
         return "0"
     power = math.floor(math.log10(abs(value)))
