@@ -59,7 +59,10 @@ void BackwardProblem::jump(std::size_t k, const State& state) {
   // of this force on one unknown of mean mass.
   const auto n = static_cast<double>(model_.num_dofs());
   const double omega = scales_.velocity / scales_.position;
-  const double impulse = by_position.lpNorm<1>() / omega + by_velocity.lpNorm<1>();
+  // The forces at the two ends of a gauge nearly cancel: a smaller force on one unknown has the same effect.
+  double force = by_position.lpNorm<1>();
+  if (const auto size = equations_.size()) force = std::min(force, *size / scales_.position);
+  const double impulse = force / omega + by_velocity.lpNorm<1>();
   model_.multiply_mass(Vector::Ones(model_.num_dofs()), work_);
   const double mean_mass = work_.sum() / n, share = kTolerance * options_.rtol / std::sqrt(n);
   positions(tolerance_.get()) = positions(tolerance_.get()).cwiseMax(share * omega * impulse);
