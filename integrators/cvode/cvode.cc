@@ -132,17 +132,21 @@ class Cvode final : public SundialsIntegrator {
   void start_sensitivities() {
     void* m = memory();
     sensitivities_->start();
-    require(CVodeSensInit1(m, sensitivities_->count(), CV_STAGGERED, sensitivity_derivative, sensitivities_->values()));
+    require(CVodeSensInit1(m, sensitivities_->count(), corrector(), sensitivity_derivative, sensitivities_->values()));
     require(CVodeSetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
     require(CVodeSensSVtolerances(m, options_.rtol, sensitivities_->tolerances(options_.rtol, scales_)));
     require(CVodeSetSensErrCon(m, 1));
+    // The iteration of the simultaneous corrector exists only now.
+    if (method_.simultaneous) require(CVodeSetMaxNonlinIters(m, options_.max_newton_iterations));
   }
+
+  int corrector() const { return method_.simultaneous ? CV_SIMULTANEOUS : CV_STAGGERED; }
 
   // Sensitivities are continuous at t, the end of the last step.
   void reinitialise(double t) override {
     if (sensitivities_) require(CVodeGetSensDky(memory(), t, 0, sensitivities_->values()));
     require(CVodeReInit(memory(), t, y()));
-    if (sensitivities_) require(CVodeSensReInit(memory(), CV_STAGGERED, sensitivities_->values()));
+    if (sensitivities_) require(CVodeSensReInit(memory(), corrector(), sensitivities_->values()));
   }
 
   int advance(double t_stop, double& t) override {

@@ -17,6 +17,7 @@ struct CvodeMethod {
   int max_order;
   // Number of earlier iterates that accelerate the fixed-point iteration; empty for Newton's method.
   std::optional<int> anderson = {};
+  bool simultaneous = false;  // see SensitivityCorrector
 };
 
 // Throws ConfigError if the linear solver does not accept the model's matrices. `model` and `sensitivities`, which may

@@ -3,6 +3,7 @@
 #include <cvodes/cvodes.h>
 
 #include "integrators/cvode/cvode.h"
+#include "integrators/sundials/sensitivity_corrector.h"
 
 namespace orthodyn {
 
@@ -18,20 +19,22 @@ struct EnumNames<StepIteration> {
 namespace sundials {
 namespace {
 
-class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options {
+class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options, public SensitivityOptions {
  public:
   static const Spec<CvodeAdamsChoice>& spec() {
     using C = CvodeAdamsChoice;
-    static const auto s =
-        Options::spec_for<C>()
-            .key("max_order", &C::max_order, "Highest order.", {.range = {1, 12}})
-            .key("nonlinear", &C::nonlinear,
-                 "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix, but needs steps "
-                 "below 1/omega_max.")
-            .key("anderson", &C::anderson,
-                 "Number of earlier iterates used to accelerate the fixed-point iteration (Anderson 1965).",
-                 {.range = {0, 10}})
-            .check([](const C& options, const Config& config) { options.check_iteration_keys(config); });
+    static const auto s = [] {
+      auto spec = Options::spec_for<C>();
+      spec.key("max_order", &C::max_order, "Highest order.", {.range = {1, 12}})
+          .key("nonlinear", &C::nonlinear,
+               "Solver of a step: Newton's method, or fixed-point iteration, which needs no matrix, but needs steps "
+               "below 1/omega_max.")
+          .key("anderson", &C::anderson,
+               "Number of earlier iterates used to accelerate the fixed-point iteration (Anderson 1965).",
+               {.range = {0, 10}})
+          .check([](const C& options, const Config& config) { options.check_iteration_keys(config); });
+      return SensitivityOptions::add_to(spec);
+    }();
     return s;
   }
   static MethodFacts facts() {
@@ -41,7 +44,8 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return nonlinear == StepIteration::newton; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
-    CvodeMethod method{"cvode_adams", CV_ADAMS, max_order};
+    CvodeMethod method{
+        .name = "cvode_adams", .family = CV_ADAMS, .max_order = max_order, .simultaneous = is_simultaneous()};
     if (nonlinear == StepIteration::fixed_point) method.anderson = anderson;
     return make_cvode(method, model, *this, scales(task), task.sensitivities);
   }
@@ -59,6 +63,8 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
     if (linear_solver != Options().linear_solver)
       config.at("linear_solver").fail("is not used with nonlinear: fixed_point; remove it");
     if (gauss_newton) config.at("gauss_newton").fail("is not used with nonlinear: fixed_point; remove it");
+    if (is_simultaneous())
+      config.at("sensitivity_corrector").fail("is not used with nonlinear: fixed_point; remove it");
   }
 };
 

@@ -7,7 +7,10 @@
 namespace orthodyn::sundials {
 namespace {
 
-class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options, public AdjointIntegrator {
+class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
+                       public Options,
+                       public SensitivityOptions,
+                       public AdjointIntegrator {
  public:
   static const Spec<CvodeBdfChoice>& spec() {
     static const auto s = bdf_spec<CvodeBdfChoice>();
@@ -23,7 +26,9 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public Options, pu
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
-    return make_cvode({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task.sensitivities);
+    const CvodeMethod method{
+        .name = "cvode_bdf", .family = CV_BDF, .max_order = order, .simultaneous = is_simultaneous()};
+    return make_cvode(method, model, *this, sizes, task.sensitivities);
   }
   AdjointSolution integrate_adjoint(const Model& model, const Task& task, AdjointEquations& equations) const override {
     const Scales sizes = scales(task);

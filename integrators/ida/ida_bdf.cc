@@ -22,9 +22,10 @@ constexpr LibraryCalls kIdaCalls = ORTHODYN_LIBRARY_CALLS(IDA);
 class IdaBdf final : public SundialsIntegrator {
  public:
   IdaBdf(const Model& model, const Options& options, const Scales& scales, int max_order,
-         SensitivityEquations* sensitivities)
+         SensitivityEquations* sensitivities, bool simultaneous)
       : SundialsIntegrator("ida_bdf", kIdaCalls, model, options, scales, true),
         max_order_(max_order),
+        corrector_(simultaneous ? IDA_SIMULTANEOUS : IDA_STAGGERED),
         momentum_(model.num_dofs()),
         y_dot_(make_vector(size(), context_, model.ranks())),
         memory_(IDACreate(context_)) {
@@ -65,11 +66,13 @@ class IdaBdf final : public SundialsIntegrator {
     void* m = memory();
     sensitivities_->start();
     sensitivities_->make_consistent(t, y(), y_dot_.get());
-    require(IDASensInit(m, sensitivities_->count(), IDA_STAGGERED, sensitivity_residual, sensitivities_->values(),
+    require(IDASensInit(m, sensitivities_->count(), corrector_, sensitivity_residual, sensitivities_->values(),
                         sensitivities_->derivatives()));
     require(IDASetSensParams(m, nullptr, sensitivities_->scales().data(), nullptr));
     require(IDASensSVtolerances(m, options_.rtol, sensitivities_->tolerances(options_.rtol, scales_)));
     require(IDASetSensErrCon(m, 1));
+    // The iteration of the simultaneous corrector exists only now.
+    if (corrector_ == IDA_SIMULTANEOUS) require(IDASetMaxNonlinIters(m, options_.max_newton_iterations));
   }
 
   // Sensitivities are continuous at t, the end of the last step.
@@ -79,7 +82,7 @@ class IdaBdf final : public SundialsIntegrator {
     require(IDAReInit(memory(), t, y(), y_dot_.get()));
     if (!sensitivities_) return;
     sensitivities_->make_consistent(t, y(), y_dot_.get());
-    require(IDASensReInit(memory(), IDA_STAGGERED, sensitivities_->values(), sensitivities_->derivatives()));
+    require(IDASensReInit(memory(), corrector_, sensitivities_->values(), sensitivities_->derivatives()));
   }
 
   int advance(double t_stop, double& t) override {
@@ -144,13 +147,14 @@ class IdaBdf final : public SundialsIntegrator {
   std::size_t own_bytes() const override { return sensitivities_ ? sensitivities_->bytes() : 0; }
 
   int max_order_;
+  int corrector_;
   Vector momentum_;
   OwnedVector y_dot_;
   std::optional<ForwardSensitivities> sensitivities_;
   std::unique_ptr<void, FreeIda> memory_;
 };
 
-class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options {
+class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options, public SensitivityOptions {
  public:
   static const Spec<IdaBdfChoice>& spec() {
     static const auto s = bdf_spec<IdaBdfChoice>();
@@ -166,7 +170,7 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options {
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes),
-                                    task.sensitivities);
+                                    task.sensitivities, is_simultaneous());
   }
 
   std::optional<int> max_order;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "integrators/sundials/sensitivity_corrector.h"
 #include "integrators/sundials/sundials_options.h"
 
 namespace orthodyn::sundials {
@@ -12,13 +13,16 @@ namespace orthodyn::sundials {
 int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
               const Scales& scales);
 
-// Spec with the keys of a BDF method. T is derived from Options and has a member `std::optional<int> max_order`.
+// Spec with the keys of a BDF method. T is derived from Options and SensitivityOptions, and has a member
+// `std::optional<int> max_order`.
 template <class T>
 Spec<T> bdf_spec() {
-  return Options::spec_for<T>().key(
-      "max_order", &T::max_order,
-      "Highest order; default 5 if the damping ratio of the motion is above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
-      {.range = {1, 5}});
+  auto spec = Options::spec_for<T>();
+  spec.key("max_order", &T::max_order,
+           "Highest order; default 5 if the damping ratio of the motion is above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
+           {.range = {1, 5}});
+  SensitivityOptions::add_to(spec);
+  return spec;
 }
 
 }  // namespace orthodyn::sundials

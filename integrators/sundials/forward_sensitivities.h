@@ -1,7 +1,6 @@
-// Forward sensitivities by CVODES and IDAS (Serban & Hindmarsh 2005), staggered: each step first computes the motion,
-// then the sensitivities at its end, with the same matrix (Feehery, Tolsma & Barton 1997). Their local errors are
-// controlled, too (SensitivityEquations::scale()). This class has what both libraries share: the vectors y_i = (s, s')
-// of all parameters, and the bodies of callbacks.
+// Forward sensitivities by CVODES and IDAS (Serban & Hindmarsh 2005). Steps solve for them with the matrix of the
+// motion (sensitivity_corrector.h). Their local errors are controlled, too (SensitivityEquations::scale()). This class
+// has what both libraries share: the vectors y_i = (s, s') of all parameters, and the bodies of callbacks.
 #pragma once
 
 #include <vector>

@@ -70,17 +70,21 @@ double largest_error(const std::string& yaml, int restarts) {
   return largest;
 }
 
+// Largest error of `method` at a tolerance. `keys`: further keys, as ", key: value".
+double error_of(const std::string& method, const char* rtol, int restarts = 0, const std::string& keys = "") {
+  return largest_error("{type: " + method + ", rtol: " + rtol + keys + "}", restarts);
+}
+
 class ForwardSensitivity : public testing::TestWithParam<const char*> {};
 
 TEST_P(ForwardSensitivity, OfAnOscillatorFollowsTheTolerance) {
-  const auto error = [](const char* rtol, int restarts) {
-    return largest_error(std::string("{type: ") + GetParam() + ", rtol: " + rtol + "}", restarts);
-  };
-  const double coarse = error("1e-4", 0), fine = error("1e-7", 0);
-  EXPECT_LT(coarse, 0.2);
-  EXPECT_LT(fine, 5e-4);
-  EXPECT_LT(fine, coarse / 50);
-  EXPECT_LT(error("1e-7", 3), 5e-4);  // restarts, as at kinks of loads
+  for (const char* corrector : {"", ", sensitivity_corrector: simultaneous"}) {
+    const double coarse = error_of(GetParam(), "1e-4", 0, corrector), fine = error_of(GetParam(), "1e-7", 0, corrector);
+    EXPECT_LT(coarse, 0.2) << corrector;
+    EXPECT_LT(fine, 5e-4) << corrector;
+    EXPECT_LT(fine, coarse / 50) << corrector;
+    EXPECT_LT(error_of(GetParam(), "1e-7", 3, corrector), 5e-4) << corrector;  // restarts, as at kinks of loads
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ForwardSensitivity, testing::Values("cvode_bdf", "cvode_adams", "ida_bdf"));

@@ -57,6 +57,12 @@ void check_step(const CheckContext& context, Warnings& out) {
   }
 }
 
+void check_corrector(const CheckContext& context, Warnings& out) {
+  const auto corrector = find_value(context.config, {"integrator", "sensitivity_corrector"});
+  if (corrector && corrector->text() == "simultaneous" && context.scene.sensitivities.empty())
+    warn(out, corrector->where(), "has no effect without `sensitivities`: remove it, or list parameters there");
+}
+
 }  // namespace
 
 void check_setting(const CheckContext& context, Warnings& out) {
@@ -65,6 +71,7 @@ void check_setting(const CheckContext& context, Warnings& out) {
   check_scale(context, "position_scale", "m", context.extent, out);
   check_scale(context, "velocity_scale", "m/s", context.wave_speed, out);
   check_step(context, out);
+  check_corrector(context, out);
 }
 
 }  // namespace orthodyn::input_checks
