@@ -49,7 +49,7 @@ LIBRARIES = {
     r"pugixml": ["lib/mesh/io/vtu"],
     r"zlib\.h": ["lib/mesh/io/vtu"],
     r"Spectra/": ["lib/linear/negative_eigenpairs.cc", "lib/linear/eigenmodes.cc"],
-    r"boost/": ["lib/simulation/output/event_finder.cc", "lib/study/fit/statistics.cc"],
+    r"boost/": ["lib/simulation/output/event_finder.cc", "lib/simulation/output/time_extreme.cc", "lib/study/fit/statistics.cc"],
     r"ceres/": ["lib/study/fit/search.cc"],
     r"CLI/": ["tools/orthodyn/command_line.cc", "tools/bench/orthodyn_bench.cc"],
     r"nlohmann/": ["lib/simulation/checkpoint/checkpoint.cc", "lib/simulation/output/json.h", "lib/study/", "tools/", "tests/"],

@@ -115,7 +115,8 @@ const Spec<Output>& Output::spec() {
                "strain, go to probes.csv.")
           .key("extremes", &Output::extremes,
                "Extremes of stress and strain over the run, with place and time, in the summary and run.json: "
-               "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Evaluated at the rows of "
+               "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest; or of a probe: "
+               "PROBE.displacement.z.largest. Those of a probe are found between all steps, others at the rows of "
                "the history.")
           .key("reactions", &Output::reactions,
                "Record in probes.csv the force and torque that every clamp and motion exerts on the body.")

@@ -128,6 +128,19 @@ class AResult(InAFolder):
         np.testing.assert_allclose(found, expected, atol=0.02 * np.abs(expected).max())
         self.assertEqual(len(result.sensitivities["d energy.elastic / d materials.wood.density"]), len(result.times))
 
+    def test_has_derivatives_of_extremes_and_events(self):
+        def run(gravity, **more):
+            event = {"quantity": "tip.displacement.z", "crosses": -1e-3}
+            scene = orthodyn.Scene(beam(gravity=[0, 0, gravity], events=[event], **more))
+            return scene.set("output.extremes", ["tip.displacement.z.smallest"]).run()
+        result = run(-9.81, sensitivities=["gravity.2"])
+        entry = result.extremes["tip.displacement.z.smallest"]
+        values = [run(g).extremes["tip.displacement.z.smallest"]["value"] for g in (-9.91, -9.71)]
+        self.assertAlmostEqual(entry["derivatives"]["gravity.2"] / ((values[0] - values[1]) / -0.2), 1, delta=0.02)
+        event = result.event_sensitivities[0]
+        self.assertEqual((event["event"], event["remark"]), ("tip.displacement.z", ""))
+        self.assertGreater(event["derivatives"]["gravity.2"], 0)  # a smaller load: later
+
     def test_of_a_buckling_analysis_has_sensitivities(self):
         result = orthodyn.Scene({
             "analysis": "buckling", "mesh": {"type": "box", "size": [1, 0.05, 0.02], "cells": [10, 2, 2]},

@@ -10,6 +10,7 @@
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/run/outcome.h"
 #include "lib/simulation/run/run_record.h"
+#include "lib/simulation/sensitivity/event_sensitivity.h"
 
 namespace orthodyn {
 
@@ -18,9 +19,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kResultFiles[] = {
-    "frames",         "frames.pvd", "probes.csv", "energy.csv",      "momentum.csv",      "steps.csv", "events.csv",
-    "load_steps.csv", "pictures",   "scene.yaml", "checkpoint.cbor", "response.csv",      "modes.csv", "modes.pvd",
-    "modes",          "modes.png",  "taps",       "buckling.csv",    "sensitivities.csv", kSetupFile,  kRunRecordFile};
+    "frames",          "frames.pvd",   "probes.csv",     "energy.csv",        "momentum.csv",
+    "steps.csv",       "events.csv",   "load_steps.csv", "pictures",          "scene.yaml",
+    "checkpoint.cbor", "response.csv", "modes.csv",      "modes.pvd",         "modes",
+    "modes.png",       "taps",         "buckling.csv",   "sensitivities.csv", kEventSensitivities,
+    kSetupFile,        kRunRecordFile};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
 constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is replaced by renaming

@@ -31,11 +31,18 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
-  if (setup.sensitivities)
-    sensitivities_.emplace(folder / "sensitivities.csv", scene, model, *setup.integrator, *setup.sensitivities);
-  if (!scene.output.extremes.empty()) extremes.emplace(scene.output.extremes, model, scene.output.origin);
+  if (!scene.output.extremes.empty()) extremes.emplace(scene, model);
+  if (setup.sensitivities) observe_sensitivities(setup, folder);
   if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
+}
+
+void RunObservers::observe_sensitivities(const Setup& setup, const std::filesystem::path& folder) {
+  const FemModel& model = *setup.built.model;
+  sensitivities_.emplace(folder / "sensitivities.csv", setup.scene, model, *setup.integrator, *setup.sensitivities);
+  slopes_.emplace(*setup.integrator, *setup.sensitivities);
+  if (extremes) extremes->differentiate(*slopes_);
+  if (!finder_.empty()) event_sensitivities_.emplace(folder / kEventSensitivities, setup.scene, model, *slopes_);
 }
 
 NamedObservers RunObservers::checkpointed() {
@@ -50,6 +57,7 @@ NamedObservers RunObservers::checkpointed() {
   add("probes", probes_);
   add("sensitivities", sensitivities_);
   add("events", events_);
+  add("event_sensitivities", event_sensitivities_);
   add("extremes", extremes);
   add("strains", strains);
   add("linearity", linearity_);

@@ -12,6 +12,7 @@
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/sensitivity/event_sensitivity.h"
 #include "lib/simulation/sensitivity/sensitivity_table.h"
 
 namespace orthodyn {
@@ -43,6 +44,8 @@ class RunObservers {
   std::optional<StrainWatch> strains;
 
  private:
+  void observe_sensitivities(const Setup& setup, const std::filesystem::path& folder);
+
   LinearityWatch* linearity_;  // null without linear kinematics
   std::optional<FrameWriter> frames_;
   std::optional<SetupWriter> setup_;
@@ -51,6 +54,8 @@ class RunObservers {
   std::optional<SensitivityWriter> sensitivities_;
   EventFinder finder_;
   std::optional<EventWriter> events_;
+  std::optional<MotionSlopes> slopes_;  // used by `extremes` and event_sensitivities_
+  std::optional<EventSensitivityWriter> event_sensitivities_;
 };
 
 }  // namespace orthodyn

@@ -164,7 +164,7 @@ double seconds_of_powers(const Setup& setup) {
 double seconds_of_row(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   const Output& output = setup.scene.output;
-  ExtremeRecorder extremes(output.extremes, model, output.origin);
+  ExtremeRecorder extremes(setup.scene, model);
   const auto columns = probe_columns(setup.scene, model);
   const double state = seconds_of(setup, [&](const ObservedState& at) {
     for (const auto& column : columns) at.evaluate(column.field);

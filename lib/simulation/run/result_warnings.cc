@@ -96,8 +96,9 @@ void add_warnings(const Outcome& outcome, std::vector<std::string>& all) {
 
 void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<std::string>& all) {
   constexpr long kFewStates = 50;
-  const auto few = std::find_if(extremes.begin(), extremes.end(),
-                                [](const RecordedExtreme& extreme) { return extreme.states < kFewStates; });
+  const auto few = std::find_if(extremes.begin(), extremes.end(), [](const RecordedExtreme& extreme) {
+    return !extreme.between_rows && extreme.states < kFewStates;
+  });
   if (few != extremes.end())
     add_warning(
         all,
@@ -147,6 +148,8 @@ std::vector<std::string> result_warnings(const RunResult& result) {
                 result.equilibrium ? "load factor" : "t =", strain->time, result.equilibrium ? "" : " s");
   for (auto& sentence : exceeded_strengths(result.extremes, !result.motion)) all.push_back(std::move(sentence));
   if (result.motion) add_few_states(result.extremes, all);
+  for (const RecordedExtreme& extreme : result.extremes)
+    if (!extreme.remark.empty()) all.push_back(extreme.quantity + ": " + extreme.remark);
   const auto& mesh = result.motion        ? result.motion->mesh_error
                      : result.equilibrium ? result.equilibrium->mesh_error
                                           : std::nullopt;

@@ -164,13 +164,16 @@ Json to_json(const std::optional<int>& count) { return count ? Json(*count) : Js
 
 Json to_json(const RecordedExtreme& extreme) {
   if (extreme.node < 0) return nullptr;
-  return {{"value", extreme.value},
-          {"unit", extreme.unit},
-          {"time", extreme.time},
-          {"node", extreme.node},
-          {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}},
-          {"region", extreme.region.empty() ? Json(nullptr) : Json(extreme.region)},
-          {"states", extreme.states}};
+  Json out = {{"value", extreme.value},
+              {"unit", extreme.unit},
+              {"time", extreme.time},
+              {"node", extreme.node},
+              {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}},
+              {"region", extreme.region.empty() ? Json(nullptr) : Json(extreme.region)},
+              {"states", extreme.states}};
+  for (const auto& [path, derivative] : extreme.derivatives) out["derivatives"][path] = derivative;
+  if (!extreme.remark.empty()) out["remark"] = extreme.remark;
+  return out;
 }
 
 Json to_json(const CriticalPoint& point) {

@@ -57,7 +57,7 @@ void check_outputs(const Scene& scene, const FemModel& model) {
     for (const auto& field : probe.fields)
       require_field_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
   }
-  ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws for an unknown quantity
+  ExtremeRecorder(scene, model);  // throws for an unknown quantity
 }
 
 void check_expectations(const Scene& scene, const FemModel& model) {

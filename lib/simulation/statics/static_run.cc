@@ -51,7 +51,7 @@ class StaticObservers {
     if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
     const FemModel& model = *setup.built.model;
-    if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
+    if (!output.extremes.empty()) extremes_.emplace(setup.scene, model);
     if (has_strain_limits(model)) strains_.emplace(StrainWatch::of_equilibria(model, problem.path->times()));
   }
   void copy_to(RunResult& result) const {

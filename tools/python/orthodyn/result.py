@@ -1,6 +1,7 @@
 """Results of runs: arrays, tables, and the record of the computation."""
 from __future__ import annotations
 
+import csv
 import json
 from functools import cached_property
 from pathlib import Path
@@ -179,6 +180,25 @@ class Result:
         parameter: t (or the load factor), "d tip.displacement.z / d materials.wood.young.0", ... In a buckling analysis
         "mode", "load_factor" and "d load_factor / d materials.wood.young.0", one row per mode."""
         return self.table("sensitivities")
+
+    @property
+    def extremes(self) -> dict[str, dict[str, Any]]:
+        """The extremes of the scene's `output.extremes` by name: "value", "time", "place" and, of probes in a motion with
+        `sensitivities`, "derivatives" by path, per SI unit of the parameter. "remark" tells why there are none."""
+        return self.record.get("extremes") or {}
+
+    @property
+    def event_sensitivities(self) -> list[dict[str, Any]]:
+        """One entry per event of a motion with `sensitivities`: "t" (s), "event" (its name), "derivatives" of this time by
+        path, in s per SI unit of the parameter, and "remark", which tells why there are none."""
+        path = self.folder / "sensitivities_of_events.csv"
+        if not path.is_file():
+            raise FileNotFoundError("no derivatives of events; the scene needs `events` and `sensitivities`, and a motion")
+        with path.open(newline="", encoding="utf-8") as stream:
+            header, *rows = csv.reader(stream)
+        paths = [name.removeprefix("d t / d ").removesuffix(" [s / SI unit]") for name in header[2:-1]]
+        return [{"t": float(row[0]), "event": row[1], "remark": row[-1],
+                 "derivatives": {p: float(cell) for p, cell in zip(paths, row[2:-1]) if cell}} for row in rows]
 
     @property
     def energies(self) -> dict[str, np.ndarray]:
