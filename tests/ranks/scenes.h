@@ -13,7 +13,7 @@ struct SharedScene {
 inline const char* const kSharedHead = R"(
 materials:
   wood: {type: orthotropic, density: 600, young: [1.0e7, 8.0e5, 5.0e5], nu12: 0.37, nu23: 0.47, nu13: 0.4,
-         g12: 7.0e5, g23: 4.0e4, g13: 6.0e5}
+         g12: 7.0e5, g23: 4.0e4, g13: 6.0e5, expansion: {moisture: [1e-3, 4e-3, 8e-3]}}
 time: {end: 0.2}
 )";
 
@@ -55,6 +55,11 @@ terms:
 regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], axis: [1, 0, 0]}}}
 clamps: [{box: {min: [-1, -1, -1], max: [0.45, 1, 1]}}]
 gravity: [0, 0, -9.81]
+)"},
+          {"swollen", box + head + R"(
+regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], axis: [1, 0, 0]}}}
+clamps: [{surface: x0}]
+moisture: {formula: "3*x*(1 + y)*sin(20*t)"}
 )"},
           // Plies that two cells share.
           {"layers", "mesh: {type: box, size: [1, 0.2, 0.04], cells: [6, 2, 2], elements: hexahedra}\n" + head + R"(
