@@ -120,6 +120,32 @@ void add_neo_hookean_moduli(const IsotropicStiffness& c, const Mat3T<Batch>& H, 
   K += own;
 }
 
+Mat3T<Batch> neo_hookean_viscous_stress(const IsotropicStiffness& c, double beta, const Mat3T<Batch>& H,
+                                        const Mat3T<Batch>& Q, const Mat3T<Batch>& rate) {
+  const Mat3T<Batch> F = Q.transpose() * (Q + H), F_rate = Q.transpose() * rate;  // in material axes
+  const Mat3T<Batch> E_rate = symmetric_part<Batch>(F.transpose() * F_rate);
+  return Q *
+         (F * (Batch(2 * beta * c.mu) * E_rate + Batch(beta * c.lambda) * E_rate.trace() * Mat3T<Batch>::Identity()));
+}
+
+// dP = F (mu (F^T dF' + dF'^T F) + lambda (F : dF') I) beta, with the change dF' of the rate.
+void add_neo_hookean_viscosity(const IsotropicStiffness& c, double beta, const Mat3T<Batch>& H, const Mat3T<Batch>& Q,
+                               Mat9T<Batch>& D) {
+  const Mat3T<Batch> F = Q.transpose() * (Q + H), FFt = F * F.transpose();
+  const Batch mu(beta * c.mu), lambda(beta * c.lambda);
+  Mat9T<Batch> own;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      for (int n = 0; n < 3; ++n)
+        for (int m = 0; m < 3; ++m) {
+          Batch entry = mu * F(i, n) * F(m, j) + lambda * F(i, j) * F(m, n);
+          if (j == n) entry += mu * FFt(i, m);
+          own(i + 3 * j, m + 3 * n) = entry;
+        }
+  turn_to_space<Batch>(Q, own);
+  D += own;
+}
+
 Mat3T<Batch> mean_neo_hookean_stress(const IsotropicStiffness& c, const Mat3T<Batch>& H0, const Mat3T<Batch>& H1,
                                      const Mat3T<Batch>& Q) {
   const Kinematics3 k0 = kinematics(H0, Q), k1 = kinematics(H1, Q);

@@ -22,6 +22,14 @@ Batch neo_hookean_energy(const IsotropicStiffness& c, const Mat3T<Batch>& H, con
 void add_neo_hookean_moduli(const IsotropicStiffness& c, const Mat3T<Batch>& H, const Mat3T<Batch>& Q,
                             bool gauss_newton, Mat9T<Batch>& K);
 
+// Viscous stress for the damping beta (s): the second Piola-Kirchhoff stress is beta (2 mu dE/dt + lambda tr(dE/dt) I)
+// with the rate of Green's strain E, so that a rigid motion has none. `rate`: dF/dt Q (1/s).
+Mat3T<Batch> neo_hookean_viscous_stress(const IsotropicStiffness& c, double beta, const Mat3T<Batch>& H,
+                                        const Mat3T<Batch>& Q, const Mat3T<Batch>& rate);
+// Adds its derivative with respect to `rate`, which is positive semidefinite, to D (Pa s).
+void add_neo_hookean_viscosity(const IsotropicStiffness& c, double beta, const Mat3T<Batch>& H, const Mat3T<Batch>& Q,
+                               Mat9T<Batch>& D);
+
 // The mean stress between two states (AddedLawAt::mean_stress) after Gonzalez, Comput. Methods Appl. Mech. Eng. 190,
 // 2000, 1763: (F0 + F1)/2 times the derivative 2 dPsi/dC at the mean C = F^T F, corrected along C1 - C0.
 Mat3T<Batch> mean_neo_hookean_stress(const IsotropicStiffness& c, const Mat3T<Batch>& H0, const Mat3T<Batch>& H1,

@@ -103,11 +103,15 @@ Values mesh_error_density(const View& view) {
   return out;
 }
 
+// With added terms, a body may be strained without stress: the error is then compared with the energy that the strains
+// would have without these terms.
 Values mesh_error(const View& view) {
   Values out{0, 0};
-  for (const RegionMeshError& region : view.mesh_errors()) {
+  const auto& terms = view.parts().elastic;
+  for (std::size_t r = 0; r < terms.size(); ++r) {
+    const RegionMeshError& region = view.mesh_errors()[r];
     out[0] += region.error.sum();
-    out[1] += region.energy;
+    out[1] += terms[r]->added().empty() ? region.energy : std::max(region.energy, terms[r]->energy(view.state()));
   }
   return out;
 }

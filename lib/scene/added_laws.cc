@@ -37,10 +37,6 @@ void check_neo_hookean(const Scene& scene, const Region& region) {
     if (!causes(scene, material).empty())
       region.origin.fail("law: neo_hookean cannot be combined with an expansion by moisture or temperature");
   }
-  if (stiffness_damping(scene, region) > 0)
-    region.origin.fail(
-        "law: neo_hookean has no stiffness-proportional damping: set stiffness_damping: 0 in this region, or use "
-        "damping.mass");
   if (region.formulation == Formulation::mixed)
     region.origin.fail("formulation: mixed is not available with law: neo_hookean");
   if (region.stiffness_factors) region.origin.fail("law: neo_hookean has no stiffness_factors");
@@ -55,7 +51,8 @@ std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, cons
                                                         const std::vector<int>& cells) {
   std::vector<std::unique_ptr<const AddedLaw>> laws = fibre_laws(scene, part, mesh, cells);
   if (part.entry->law == ElasticLaw::neo_hookean)
-    laws.push_back(make_neo_hookean(std::get<IsotropicStiffness>(part.material->stiffness())));
+    laws.push_back(make_neo_hookean(std::get<IsotropicStiffness>(part.material->stiffness()),
+                                    stiffness_damping(scene, *part.entry)));
   const Kinematics kinematics = elasticity_of(scene, *part.entry).kinematics;
   for (const Cause& cause : causes(scene, *part.material))
     laws.push_back(make_swelling(stiffness, kinematics,

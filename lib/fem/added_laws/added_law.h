@@ -66,6 +66,9 @@ class AddedLaw {
   virtual std::shared_ptr<const AddedLawAt> at_peak(double start, double end) const = 0;
   virtual double seconds_at_peak(double start, double end) const = 0;
 
+  // Whether the stress is proportional to the elastic stiffness.
+  virtual bool scales_with_stiffness() const { return false; }
+
   virtual bool has_energy() const = 0;
   virtual bool depends_on_rate() const { return false; }
   virtual bool depends_on_time() const = 0;

@@ -8,6 +8,7 @@
 
 namespace orthodyn {
 
-std::unique_ptr<AddedLaw> make_neo_hookean(const IsotropicStiffness& stiffness);
+// `beta`: stiffness-proportional damping, s; 0 for none.
+std::unique_ptr<AddedLaw> make_neo_hookean(const IsotropicStiffness& stiffness, double beta);
 
 }  // namespace orthodyn

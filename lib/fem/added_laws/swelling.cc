@@ -98,6 +98,7 @@ class SwellingLaw : public AddedLaw {
     return std::make_unique<SwellingLaw>(constants_, false, swelling_);
   }
 
+  bool scales_with_stiffness() const override { return true; }
   bool has_energy() const override { return true; }
   bool depends_on_time() const override { return !swelling_.change->constant(); }
   bool is_dead() const override { return is_linear_; }

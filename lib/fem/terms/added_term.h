@@ -16,6 +16,7 @@ class AddedTerm : public Term {
   using VisitStress = std::function<void(int k, int point, const Mat3& cauchy, const Mat3& turned)>;
   virtual void visit_stresses(const NodalState& s, const VisitStress& visit) const = 0;
   virtual void visit_stresses_of(int k, const NodalState& s, const VisitStress& visit) const = 0;
+  virtual bool scales_with_stiffness() const = 0;     // AddedLaw::scales_with_stiffness()
   virtual double volume(int k, int point) const = 0;  // m^3, at rest
 
   // This term with corotational kinematics; the arguments are those of ElementType::added_term().

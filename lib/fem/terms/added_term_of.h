@@ -117,6 +117,7 @@ class AddedTermOf final : public AddedTerm {
                   if (other == k) visit(k, p, cauchy, turned);
                 });
   }
+  bool scales_with_stiffness() const override { return law_->scales_with_stiffness(); }
   double volume(int k, int p) const override { return elements_.volume(k, p); }
 
   std::unique_ptr<AddedTerm> corotational(const ElementMesh& mesh, const BlockPattern& pattern) const override {

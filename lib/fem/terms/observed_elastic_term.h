@@ -16,7 +16,6 @@ namespace orthodyn {
 class ObservedElasticTerm final : public ElasticTerm {
  public:
   // The added terms must outlive this object. `law`: the name of the law that replaces the elastic one; "" for none.
-  // Precondition: a replaced law has no damping.
   ObservedElasticTerm(std::unique_ptr<ElasticTerm> elastic, std::vector<const AddedTerm*> added, std::string law)
       : elastic_(std::move(elastic)), added_(std::move(added)), replacing_law_(std::move(law)) {}
 
@@ -36,7 +35,7 @@ class ObservedElasticTerm final : public ElasticTerm {
     if (!is_replaced()) elastic_->add_predicted_tangent(before, s, K);
   }
   double energy(const NodalState& s) const override { return is_replaced() ? 0 : elastic_->energy(s); }
-  double dissipation(const NodalState& s) const override { return elastic_->dissipation(s); }
+  double dissipation(const NodalState& s) const override { return is_replaced() ? 0 : elastic_->dissipation(s); }
 
   const ElasticRegion& definition() const override { return elastic_->definition(); }
   std::string law() const override { return is_replaced() ? replacing_law_ : elastic_->law(); }

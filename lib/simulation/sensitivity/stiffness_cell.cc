@@ -4,6 +4,7 @@
 #include <set>
 #include <string_view>
 
+#include "lib/fem/terms/added_term.h"
 #include "lib/scene/region.h"
 
 namespace orthodyn {
@@ -32,6 +33,8 @@ std::optional<StiffnessCell> StiffnessCell::find(const std::string& path, const 
     const ElasticRegion& own = term->definition();
     if (own.stiffness_cell != cell || cell < 0 || entry_of(scene, own.mesh_region).first != region) continue;
     terms.push_back(term.get());
+    for (const AddedTerm* added : term->added())
+      if (added->scales_with_stiffness()) terms.push_back(added);
     factor = own.stiffness_factor;
     for (const int element : own.cells)
       for (const int node : model.parts().mesh.cells[static_cast<std::size_t>(element)]) nodes.insert(node);
