@@ -26,7 +26,7 @@ motions: [{surface: x0, displacement: [0, 0, 0.01*sin(20*t)]}]
 loads: [{surface: x1, force: [0, 0.2, 0], factor: {type: table, points: [[0, 1], [0.05, 1], [0.06, 0]]}}]
 initial: {velocity_field: [0, 0, 2*x]}
 time: {end: 0.3}
-integrator: {type: cvode_bdf, rtol: 1e-7}
+integrator: {type: cvode_bdf, rtol: 1e-8}
 output:
   frames: 0
   history: {interval: 0.05}
@@ -145,7 +145,7 @@ TEST_F(MotionSensitivity, DoesNotDependOnTheLibraryAndTheCorrector) {
   };
   scene.set_yaml("integrator.sensitivity_corrector", "simultaneous");
   expect_same("simultaneous");
-  scene.set_yaml("integrator", "{type: ida_bdf, rtol: 1e-7}");
+  scene.set_yaml("integrator", "{type: ida_bdf, rtol: 1e-8}");
   expect_same("ida_bdf");
 }
 
