@@ -31,12 +31,25 @@ template <class T, class Gradient>
 
 }  // namespace stiffness_detail
 
+// Tangent moduli dP/dF in space, acting on the columns of dF.
+template <class C, class T>
+[[gnu::always_inline]] inline Mat9T<T> moduli_in_space(const TangentFormOf<C, T>& form) {
+  Mat9T<T> A = expand(form);
+  turn_to_space<T>(form.R, A);
+  return A;
+}
+template <class T>
+[[gnu::always_inline]] inline const Mat9T<T>& moduli_in_space(const Mat9T<T>& A) {
+  return A;
+}
+
 // Adds the stiffness V g_a . A . g_b (N/m) of one point to K_ab for nodes a, b = 1, 2, ..., with the point's volume V,
-// tangent moduli A and shape gradients g_a. If `first`, sets K_ab instead.
-template <int kNodes, class T>
-[[gnu::always_inline]] inline void add_point_moduli(const Mat9T<T>& A, const ElementPoint<kNodes, T>& point,
-                                                    bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
+// tangent moduli A and shape gradients g_a. If `first`, sets K_ab instead. `form`: a TangentFormOf, or A.
+template <int kNodes, class Form, class T>
+[[gnu::noipa]] void add_point_stiffness(const Form& form, const ElementPoint<kNodes, T>& point, bool symmetric,
+                                        bool first, ElementBlocks<kNodes, T>& K) {
   using namespace stiffness_detail;
+  const Mat9T<T>& A = moduli_in_space(form);
   for (int b = 1; b < kNodes; ++b) {
     const Vec3T<T> g_b = point.volume * point.B.row(b - 1).transpose();
     const auto right = contract_right<T>(A, g_b);
@@ -49,15 +62,6 @@ template <int kNodes, class T>
       }
     }
   }
-}
-
-// As above, for the moduli of a tangent form.
-template <int kNodes, class C, class T>
-[[gnu::noipa]] void add_point_stiffness(const TangentFormOf<C, T>& form, const ElementPoint<kNodes, T>& point,
-                                        bool symmetric, bool first, ElementBlocks<kNodes, T>& K) {
-  Mat9T<T> A = expand(form);
-  turn_to_space<T>(form.R, A);
-  add_point_moduli<kNodes>(A, point, symmetric, first, K);
 }
 
 // Sets the blocks of node 0, whose shape function is 1 minus the sum of the others.

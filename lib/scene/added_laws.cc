@@ -54,10 +54,11 @@ std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, cons
     laws.push_back(make_neo_hookean(std::get<IsotropicStiffness>(part.material->stiffness()),
                                     stiffness_damping(scene, *part.entry)));
   const Kinematics kinematics = elasticity_of(scene, *part.entry).kinematics;
+  std::vector<Swelling> swellings;
   for (const Cause& cause : causes(scene, *part.material))
-    laws.push_back(make_swelling(stiffness, kinematics,
-                                 {cause.name, *cause.coefficients,
-                                  cause.change->at_points(*part.type, mesh, cells, scene.time.start, scene.time.end)}));
+    swellings.push_back({cause.name, *cause.coefficients,
+                         cause.change->at_points(*part.type, mesh, cells, scene.time.start, scene.time.end)});
+  if (!swellings.empty()) laws.push_back(make_swelling(stiffness, kinematics, std::move(swellings)));
   return laws;
 }
 

@@ -1,10 +1,11 @@
-// Swelling and thermal expansion: the stress-free strain e* = theta diag(a1, a2, a3) along the material axes, for a
-// change theta of moisture or temperature (lib/element/swelling_law.h). The energy C:(e - e*) : (e - e*) / 2 of strain
-// e and e* is that of the elastic law, plus -theta C:a : e + theta^2 a:C:a / 2, which this law adds.
+// Swelling and thermal expansion: the stress-free strain e* = sum of theta diag(a1, a2, a3) along the material axes,
+// for the changes theta of moisture and temperature (lib/element/swelling_law.h). The energy C:(e - e*) : (e - e*) / 2
+// of strain e and e* is that of the elastic law, plus -C:e* : e + e*:C:e* / 2, which this law adds.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lib/fem/added_laws/added_law.h"
 #include "lib/fem/added_laws/point_values.h"
@@ -18,7 +19,7 @@ struct Swelling {
   std::shared_ptr<const PointValues> change;  // per cent or K
 };
 
-// `stiffness`: of the elastic law, Pa, in material axes.
-std::unique_ptr<AddedLaw> make_swelling(const Mat6& stiffness, Kinematics kinematics, Swelling swelling);
+// `stiffness`: of the elastic law, Pa, in material axes. `causes`: at least one.
+std::unique_ptr<AddedLaw> make_swelling(const Mat6& stiffness, Kinematics kinematics, std::vector<Swelling> causes);
 
 }  // namespace orthodyn

@@ -67,8 +67,8 @@ class AddedTermOf final : public AddedTerm {
         Mat9T<Batch> moduli = Mat9T<Batch>::Zero(), viscous = Mat9T<Batch>::Zero();
         law->add_moduli(at.point(), at.rate(), kind, moduli, damping ? &viscous : nullptr);
         const auto point = elements_.points(b, p);
-        add_point_moduli<E::kNodes>(moduli, point, assembly_.symmetric(), p == 0, K_blocks);
-        if (damping) add_point_moduli<E::kNodes>(viscous, point, assembly_.symmetric(), p == 0, D_blocks);
+        add_point_stiffness<E::kNodes>(moduli, point, assembly_.symmetric(), p == 0, K_blocks);
+        if (damping) add_point_stiffness<E::kNodes>(viscous, point, assembly_.symmetric(), p == 0, D_blocks);
       }
       assembly_.add_batch(b, K_blocks, K);
       if (damping) assembly_.add_batch(b, D_blocks, damping);
