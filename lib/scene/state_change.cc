@@ -89,8 +89,8 @@ std::unique_ptr<PointValues> StateChange::at_points(const ElementType& type, con
   const int points = type.num_points();
   if (file)
     return scaled_values(
-        interpolated(read_nodal(*file, quantity, static_cast<Eigen::Index>(mesh.nodes.size())), type, mesh, cells), factor,
-        points);
+        interpolated(read_nodal(*file, quantity, static_cast<Eigen::Index>(mesh.nodes.size())), type, mesh, cells),
+        factor, points);
   Eigen::Matrix3Xd places = places_of(type, mesh, cells);
   if (formula) return formula_values(*formula, std::move(places), start, end, kinks, points);
   Vector values(places.cols());

@@ -96,8 +96,8 @@ TEST(SwellingInTime, PowerIsTheRateOfTheEnergyAtAFixedShape) {
 }
 
 TEST(SwellingInSpace, NodalValuesAreInterpolatedByTheShapeFunctions) {
-  for (const char* mesh :
-       {"cells: [2, 2, 1], order: 1", "cells: [2, 2, 1], order: 2", "cells: [2, 2, 1], elements: hexahedra, order: 2"}) {
+  for (const char* mesh : {"cells: [2, 2, 1], order: 1", "cells: [2, 2, 1], order: 2",
+                           "cells: [2, 2, 1], elements: hexahedra, order: 2"}) {
     const BuiltTestScene formula(block("moisture: {change: 0.2 + 0.4*x - 0.3*y}", mesh));
     const std::string file = testing::TempDir() + "moisture.csv";
     std::ofstream out(file);
