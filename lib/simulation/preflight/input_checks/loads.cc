@@ -113,8 +113,8 @@ void add_idle_loads(const CheckContext& context, Warnings& out) {
 void add_idle_scene(const CheckContext& context, Warnings& out) {
   const Scene& scene = context.scene;
   if (!context.is_timed_motion() || scene.gravity || !scene.loads.empty() || !scene.terms.empty() ||
-      !scene.motions.empty() || scene.moisture || scene.temperature || !context.built.initial.q.isZero(0) ||
-      !context.built.initial.v.isZero(0))
+      !scene.motions.empty() || scene.moisture || scene.temperature || scene.activation ||
+      !context.built.initial.q.isZero(0) || !context.built.initial.v.isZero(0))
     return;
   warn(out, context.config.at("time").where(),
        "nothing acts on the body, and it is at rest at the start: it will not move. Add 'loads', 'gravity', 'motions' "
