@@ -80,6 +80,7 @@ Strains small_strains(const ElasticTerm& term, const NodalVector& u) {
 
 // Whether a body of this material can reach a limit.
 bool has_reachable_limit(const ElasticTerm& term) {
+  if (term.is_replaced()) return false;
   for (const AxisLimits& axis : strain_limits(term.definition().stiffness))
     if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
   return false;
@@ -95,7 +96,8 @@ double smallest(const std::array<AxisLimits, 3>& limits) {
 
 // The norm of Green's strain up to which the law's strain cannot exceed a limit.
 double safe_green_strain(const ElasticTerm& term) {
-  if (term.definition().options.kinematics == Kinematics::linear) return std::numeric_limits<double>::infinity();
+  if (term.definition().options.kinematics == Kinematics::linear || term.is_replaced())
+    return std::numeric_limits<double>::infinity();
   const Stiffness& stiffness = term.definition().stiffness;
   const double largest_ratio = kMargin * stress_over_young(stiffness).rowwise().norm().maxCoeff();
   return smallest(strain_limits(stiffness)) / largest_ratio;
@@ -115,6 +117,7 @@ Warnings strain_warnings(const FemModel& model, const State& initial, const Stat
   if (statics.exists()) model.parts().dofs->add_to(statics.displacement, u);
   const NodalExpansion start(model.parts(), initial.t, initial.q, initial.v);
   for (const auto& term : model.parts().elastic) {
+    if (term->is_replaced()) continue;
     const Stiffness& stiffness = term->definition().stiffness;
     const auto limits = strain_limits(stiffness);
     const Mat36 equivalent = stress_over_young(stiffness);

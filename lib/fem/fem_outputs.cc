@@ -144,7 +144,9 @@ double dissipated_power(const View& view) {
 double load_power(const View& view) {
   const auto& parts = view.parts();
   double power = parts.moved ? view.support_forces().cwiseProduct(view.nodal().u_rate).sum() : 0;
-  for (const auto& term : parts.loads) power += view.nodal().load_factor * term->load_power(view.state());
+  NodalState whole = view.state();
+  whole.load_factor = 1;  // the sum is multiplied by it
+  for (const auto& term : parts.loads) power += view.nodal().load_factor * term->load_power(whole);
   return power;
 }
 

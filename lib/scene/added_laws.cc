@@ -39,6 +39,8 @@ void check_neo_hookean(const Scene& scene, const Region& region) {
   }
   if (region.formulation == Formulation::mixed)
     region.origin.fail("formulation: mixed is not available with law: neo_hookean");
+  if (scene.harmonic && !scene.harmonic->losses.empty())
+    region.origin.fail("law: neo_hookean is not available with harmonic.losses; use damping or damping_ratio");
   if (region.stiffness_factors) region.origin.fail("law: neo_hookean has no stiffness_factors");
 }
 
@@ -50,16 +52,22 @@ std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, cons
                                                         const Mat6& stiffness, const ElementMesh& mesh,
                                                         const std::vector<int>& cells) {
   std::vector<std::unique_ptr<const AddedLaw>> laws = fibre_laws(scene, part, mesh, cells);
-  if (part.entry->law == ElasticLaw::neo_hookean)
-    laws.push_back(make_neo_hookean(std::get<IsotropicStiffness>(part.material->stiffness()),
-                                    stiffness_damping(scene, *part.entry)));
   const Kinematics kinematics = elasticity_of(scene, *part.entry).kinematics;
   std::vector<Swelling> swellings;
   for (const Cause& cause : causes(scene, *part.material))
-    swellings.push_back({cause.name, *cause.coefficients,
-                         cause.change->at_points(*part.type, mesh, cells, scene.time.start, scene.time.end)});
+    swellings.push_back(
+        {cause.name, *cause.coefficients,
+         cause.change->at_points(*part.type, mesh, cells, part.cells, scene.time.start, scene.time.end)});
   if (!swellings.empty()) laws.push_back(make_swelling(stiffness, kinematics, std::move(swellings)));
   return laws;
+}
+
+std::unique_ptr<const AddedLaw> replacing_law(const Scene& scene, const ElasticPart& part) {
+  if (part.entry->law != ElasticLaw::neo_hookean) return nullptr;
+  const Stiffness stiffness = part.material->stiffness();
+  const auto* isotropic = std::get_if<IsotropicStiffness>(&stiffness);
+  if (!isotropic) part.entry->origin.fail("law: neo_hookean needs an isotropic material");
+  return make_neo_hookean(*isotropic, stiffness_damping(scene, *part.entry));
 }
 
 void declare_added_laws(const Scene& scene, const std::vector<const Region*>& regions, Traits& traits) {

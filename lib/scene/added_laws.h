@@ -12,12 +12,15 @@ namespace orthodyn {
 
 struct Scene;
 
-// The laws of a part for its elements `cells`, which are indices of `mesh`, the whole mesh; at least one element.
+// The laws of a part for its elements `cells`, which are indices of `mesh`, the whole mesh; maybe none on a rank.
 // `stiffness`: of the part's elastic law, Pa. Empty if neither the material nor the scene names one. Throws
 // ConfigError.
 std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, const ElasticPart& part,
                                                         const Mat6& stiffness, const ElementMesh& mesh,
                                                         const std::vector<int>& cells);
+
+// The law that takes the place of the corotational one in a part; null for none.
+std::unique_ptr<const AddedLaw> replacing_law(const Scene& scene, const ElasticPart& part);
 
 // Whether moisture or temperature makes the material swell.
 bool swells(const Scene& scene, const Material& material);

@@ -290,14 +290,19 @@ std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, Elast
          parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share,
          part.stiffness_cell, part.stiffness_factor, is_mixed(scene, entry, *part.material, *part.type)},
         *parts.pattern);
+    const auto term_of = [&](std::unique_ptr<const AddedLaw> law) {
+      return part.type->added_term(own, *term, std::move(law), *parts.pattern);
+    };
     std::vector<const AddedTerm*> added;
     for (auto& law : laws) {
-      added_terms.push_back(part.type->added_term(own, *term, std::move(law), *parts.pattern));
+      added_terms.push_back(term_of(std::move(law)));
       added.push_back(added_terms.back().get());
     }
-    if (!added.empty())
-      term = std::make_unique<ObservedElasticTerm>(std::move(term), std::move(added),
-                                                   entry.law == ElasticLaw::neo_hookean ? "neo-Hookean" : "");
+    auto replacing = replacing_law(scene, part);
+    if (!added.empty() || replacing) {
+      auto replacing_term = replacing ? term_of(std::move(replacing)) : nullptr;
+      term = std::make_unique<ObservedElasticTerm>(std::move(term), std::move(added), std::move(replacing_term));
+    }
     parts.elastic.push_back(std::move(term));
     parts.densities.push_back(part.density);
   }

@@ -22,10 +22,10 @@ Eigen::Matrix3Xd centres(const ElementMesh& mesh, const std::vector<int>& cells)
 }
 
 FibreActivation activation_of(const Scene& scene, const ElementType& type, const ElementMesh& mesh,
-                              const std::vector<int>& cells) {
+                              const std::vector<int>& cells, const std::vector<int>& of_all_ranks) {
   const Activation& section = *scene.activation;
   FibreActivation activation;
-  activation.values = section.at_points(type, mesh, cells, scene.time.start, scene.time.end);
+  activation.values = section.at_points(type, mesh, cells, of_all_ranks, scene.time.start, scene.time.end);
   activation.points_per_element = type.num_points();
   activation.refuse = [origin = section.origin, places = centres(mesh, cells)](double t, double value,
                                                                                Eigen::Index element) {
@@ -55,7 +55,8 @@ std::vector<std::unique_ptr<const AddedLaw>> fibre_laws(const Scene& scene, cons
   const Kinematics kinematics = elasticity_of(scene, *part.entry).kinematics;
   if (fibres->passive) laws.push_back(make_passive_fibres(*fibres->passive, kinematics));
   if (fibres->active) {
-    laws.push_back(make_active_fibres(*fibres->active, kinematics, activation_of(scene, *part.type, mesh, cells)));
+    laws.push_back(
+        make_active_fibres(*fibres->active, kinematics, activation_of(scene, *part.type, mesh, cells, part.cells)));
     check_activation(*laws.back(), scene.time);
   }
   return laws;
@@ -78,6 +79,11 @@ void declare_fibres(const Scene& scene, const Material& material, Traits& traits
 void check_fibres(const Config& config, const Scene& scene) {
   bool is_used = false;
   for (const auto& [name, material] : scene.materials) {
+    if (scene.analysis == Analysis::buckling && material->fibres() && material->fibres()->passive)
+      config.at("analysis")
+          .fail(
+              "buckling is linear about rest, where the stiffness of passive fibres jumps; follow the load path with "
+              "analysis: static");
     if (!is_active(*material)) continue;
     is_used = true;
     if (!scene.activation)

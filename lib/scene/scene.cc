@@ -172,6 +172,17 @@ void refuse_harmonic_factors(const Config& config, const Scene& scene) {
     if (motion.factor && motion.factor->is_harmonic()) motion.origin.fail(kMessage);
 }
 
+// Fields make no vibrations: in a harmonic analysis they are constant.
+void refuse_harmonic_fields(const Scene& scene) {
+  const auto check = [](const auto& field) {
+    if (field && field->factor->is_harmonic())
+      field->origin.fail("factor: {type: harmonic} is for loads; a field of a motion may have factor: {type: sine}");
+  };
+  check(scene.moisture);
+  check(scene.temperature);
+  check(scene.activation);
+}
+
 // Statics evaluate everything at one time, which the user must give.
 void require_time_of_statics(const Config& config, const Scene& scene) {
   constexpr const char* kAsk = "the factor varies in time: give time: {end: ...}, at which statics evaluate it";
@@ -398,6 +409,7 @@ Scene read_scene(const Config& input) {
     case Analysis::harmonic: check_harmonic(config, scene, is_timed); break;
   }
   if (scene.analysis != Analysis::harmonic) refuse_harmonic_factors(config, scene);
+  refuse_harmonic_fields(scene);
   check_sensitivities(scene);
   check_expectations(scene);
   if (!config.has("materials")) fill_mesh_materials(config, scene);

@@ -40,7 +40,8 @@ Eigen::Matrix3Xd places_of(const ElementType& type, const ElementMesh& mesh, con
   return all;
 }
 
-// Nodal values interpolated by the shape functions, which ElementType::points() applies to positions.
+// Nodal values interpolated by the shape functions, which ElementType::points() applies to positions, within the range
+// of the element's nodes: quadratic functions would leave it where the values jump.
 Vector interpolated(const Vector& nodal, const ElementType& type, const ElementMesh& mesh,
                     const std::vector<int>& cells) {
   const Eigen::Index points = type.num_points();
@@ -49,7 +50,8 @@ Vector interpolated(const Vector& nodal, const ElementType& type, const ElementM
     const auto nodes = mesh.cells[static_cast<std::size_t>(cells[k])];
     ElementType::Nodes values = ElementType::Nodes::Zero(3, static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t a = 0; a < nodes.size(); ++a) values(0, static_cast<Eigen::Index>(a)) = nodal[nodes[a]];
-    all.segment(static_cast<Eigen::Index>(k) * points, points) = type.points(values).row(0);
+    all.segment(static_cast<Eigen::Index>(k) * points, points) =
+        type.points(values).row(0).cwiseMax(values.row(0).minCoeff()).cwiseMin(values.row(0).maxCoeff());
   }
   return all;
 }
@@ -85,17 +87,23 @@ const Spec<StateChange>& StateChange::spec() {
 }
 
 std::unique_ptr<PointValues> StateChange::at_points(const ElementType& type, const ElementMesh& mesh,
-                                                    const std::vector<int>& cells, double start, double end) const {
+                                                    const std::vector<int>& cells, const std::vector<int>& of_all_ranks,
+                                                    double start, double end) const {
   const int points = type.num_points();
+  const auto resolved = factor->over(start, end);
+  const auto in_time = resolved ? resolved : factor;
   if (file)
     return scaled_values(
         interpolated(read_nodal(*file, quantity, static_cast<Eigen::Index>(mesh.nodes.size())), type, mesh, cells),
-        factor, points);
+        in_time, points);
   Eigen::Matrix3Xd places = places_of(type, mesh, cells);
-  if (formula) return formula_values(*formula, std::move(places), start, end, kinks, points);
+  if (formula) {
+    const std::vector<int> some{of_all_ranks.front(), of_all_ranks[of_all_ranks.size() / 2], of_all_ranks.back()};
+    return formula_values(*formula, std::move(places), places_of(type, mesh, some), start, end, kinks, points);
+  }
   Vector values(places.cols());
   for (Eigen::Index i = 0; i < places.cols(); ++i) values[i] = change->at(places.col(i));
-  return scaled_values(std::move(values), factor, points);
+  return scaled_values(std::move(values), in_time, points);
 }
 
 }  // namespace orthodyn

@@ -28,10 +28,12 @@ struct StateChange {
   void check(const Config& config) const;  // throws ConfigError for keys that exclude each other
   bool constant() const { return formula ? !formula->uses("t") : factor->constant(); }
 
+  // `of_all_ranks`: the elements of the part on all ranks, at some of which step limits are found.
   // The values at the integration points of the elements `cells` of one type; `mesh` is the whole mesh. `start` and
   // `end` of the time span (s). Throws ConfigError if the file does not fit the mesh.
   std::unique_ptr<PointValues> at_points(const ElementType& type, const ElementMesh& mesh,
-                                         const std::vector<int>& cells, double start, double end) const;
+                                         const std::vector<int>& cells, const std::vector<int>& of_all_ranks,
+                                         double start, double end) const;
 };
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "lib/fem/added_laws/fibre_law.h"
 #include "lib/fem/added_laws/fibres.h"
@@ -104,9 +105,12 @@ class ActiveFibres : public AddedLaw {
   ActiveFibresAt::Values values(double t) const {
     constexpr double kRoundOff = 1e-12;
     auto found = activation_.values->at(t);
+    const std::scoped_lock lock(mutex_);
+    if (found == checked_) return found;
     for (std::size_t index = 0; index < found->value.size(); ++index)
       for (int l = 0; l < Batch::kLanes; ++l)
         if (const double a = found->value[index][l]; !(a >= -kRoundOff && a <= 1 + kRoundOff)) refuse(t, a, index, l);
+    checked_ = found;
     return found;
   }
 
@@ -118,6 +122,8 @@ class ActiveFibres : public AddedLaw {
   ActiveTension law_;
   bool is_linear_;
   FibreActivation activation_;
+  mutable std::mutex mutex_;
+  mutable ActiveFibresAt::Values checked_;  // the last values that were found within [0, 1]
 };
 
 }  // namespace

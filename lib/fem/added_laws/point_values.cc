@@ -72,11 +72,12 @@ class ScaledValues : public PointValues {
 
 class FormulaValues : public PointValues {
  public:
-  FormulaValues(TimePointFormula formula, Eigen::Matrix3Xd places, double start, double end, std::vector<double> kinks,
-                int points)
+  FormulaValues(TimePointFormula formula, Eigen::Matrix3Xd places, Eigen::Matrix3Xd samples, double start, double end,
+                std::vector<double> kinks, int points)
       : PointValues(points),
         formula_(std::move(formula)),
         places_(std::move(places)),
+        samples_(std::move(samples)),
         kinks_(std::move(kinks)),
         limits_(kinks_),
         step_(step_limits(start, end), start, end) {
@@ -90,9 +91,9 @@ class FormulaValues : public PointValues {
 
   StepLimits step_limits(double start, double end) const override {
     StepLimits limits;
-    if (constant() || !(end > start) || places_.cols() == 0) return limits;
-    for (const Eigen::Index i : {Eigen::Index{0}, places_.cols() / 2, places_.cols() - 1})
-      limits.add(StepLimits::of([&](double t) { return formula_.at(t, places_.col(i)); }, start, end, kinks_));
+    if (constant() || !(end > start)) return limits;
+    for (Eigen::Index i = 0; i < samples_.cols(); ++i)
+      limits.add(StepLimits::of([&](double t) { return formula_.at(t, samples_.col(i)); }, start, end, kinks_));
     return limits;
   }
 
@@ -118,7 +119,7 @@ class FormulaValues : public PointValues {
   Eigen::Index size() const override { return places_.cols(); }
 
   TimePointFormula formula_;
-  Eigen::Matrix3Xd places_;
+  Eigen::Matrix3Xd places_, samples_;
   std::vector<double> kinks_, limits_;  // limits_: kinks and start, which differences do not cross
   DifferenceStep step_;
 };
@@ -130,10 +131,11 @@ std::unique_ptr<PointValues> scaled_values(Vector values, std::shared_ptr<const 
   return std::make_unique<ScaledValues>(std::move(values), std::move(factor), points_per_element);
 }
 
-std::unique_ptr<PointValues> formula_values(TimePointFormula formula, Eigen::Matrix3Xd places, double start, double end,
-                                            std::vector<double> kinks, int points_per_element) {
-  return std::make_unique<FormulaValues>(std::move(formula), std::move(places), start, end, std::move(kinks),
-                                         points_per_element);
+std::unique_ptr<PointValues> formula_values(TimePointFormula formula, Eigen::Matrix3Xd places, Eigen::Matrix3Xd samples,
+                                            double start, double end, std::vector<double> kinks,
+                                            int points_per_element) {
+  return std::make_unique<FormulaValues>(std::move(formula), std::move(places), std::move(samples), start, end,
+                                         std::move(kinks), points_per_element);
 }
 
 }  // namespace orthodyn

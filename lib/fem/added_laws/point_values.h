@@ -57,13 +57,15 @@ class PointValues {
 
 }  // namespace ORTHODYN_LANES
 
-// Fixed values, one for each point, times a factor in time. For at least one element.
+// Fixed values, one for each point, times a factor in time.
 std::unique_ptr<PointValues> scaled_values(Vector values, std::shared_ptr<const TimeFunction> factor,
                                            int points_per_element);
 
-// A formula of time and position. `places`: positions of the points at rest (m), one column each, for at least one
-// element. `start` and `end` of the time span (s); differences in time do not cross `kinks` (s).
-std::unique_ptr<PointValues> formula_values(TimePointFormula formula, Eigen::Matrix3Xd places, double start, double end,
-                                            std::vector<double> kinks, int points_per_element);
+// A formula of time and position. `places`: positions of the points at rest (m), one column each. `samples`: places at
+// which step limits are found, the same on all ranks. `start` and `end` of the time span (s); differences in time do
+// not cross `kinks` (s).
+std::unique_ptr<PointValues> formula_values(TimePointFormula formula, Eigen::Matrix3Xd places, Eigen::Matrix3Xd samples,
+                                            double start, double end, std::vector<double> kinks,
+                                            int points_per_element);
 
 }  // namespace orthodyn

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "lib/fem/element_mesh.h"
 #include "lib/fem/term.h"
@@ -11,11 +12,13 @@ namespace orthodyn {
 
 class AddedTerm : public Term {
  public:
-  // Calls visit(k, point, Cauchy stress in space, stress in the turning material axes), in Pa, for all points of all
+  // Calls visit(k, point, Cauchy stress in space, stress in the turning material axes), in Pa, without the part that
+  // depends on the rate of F, as the elastic term observes no viscous stress; for all points of all
   // elements, concurrently for different elements, or for the points of element k. k as in ElasticTerm.
   using VisitStress = std::function<void(int k, int point, const Mat3& cauchy, const Mat3& turned)>;
   virtual void visit_stresses(const NodalState& s, const VisitStress& visit) const = 0;
   virtual void visit_stresses_of(int k, const NodalState& s, const VisitStress& visit) const = 0;
+  virtual std::string law() const = 0;                // name of the law
   virtual bool scales_with_stiffness() const = 0;     // AddedLaw::scales_with_stiffness()
   virtual double volume(int k, int point) const = 0;  // m^3, at rest
 

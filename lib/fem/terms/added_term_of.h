@@ -37,8 +37,9 @@ class AddedTermOf final : public AddedTerm {
   bool is_dead() const override { return law_->is_dead(); }
 
   void add_force(const NodalState& s, NodalVector& f) const override { add_force_of(*law_->at(s.t), s, f); }
+  // Nothing for laws that are no loads.
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override {
-    add_force_of(*law_->at_peak(s.t, end), s, f);
+    if (is_load()) add_force_of(*law_->at_peak(s.t, end), s, f);
   }
   double seconds_at_peak(double start, double end) const override { return law_->seconds_at_peak(start, end); }
 
@@ -117,6 +118,7 @@ class AddedTermOf final : public AddedTerm {
                   if (other == k) visit(k, p, cauchy, turned);
                 });
   }
+  std::string law() const override { return law_->name(); }
   bool scales_with_stiffness() const override { return law_->scales_with_stiffness(); }
   double volume(int k, int p) const override { return elements_.volume(k, p); }
 
@@ -204,7 +206,7 @@ class AddedTermOf final : public AddedTerm {
     const BatchState state(*this, b, s);
     for (int p = 0; p < elements_.num_points(); ++p) {
       const PointState at = state.at(p);
-      const Mat3T<Batch> P = law.stress(at.point(), at.rate()), turned = law.turned_stress(at.point());
+      const Mat3T<Batch> P = law.stress(at.point(), nullptr), turned = law.turned_stress(at.point());
       const Mat3T<Batch> F = is_linear ? at.Q : Mat3T<Batch>(at.Q + at.H);
       for (int l = 0; l < elements_.lanes(b); ++l)
         visit(b * Batch::kLanes + l, p, cauchy_stress(lane_of(P, l), lane_of(F, l)), lane_of(turned, l));

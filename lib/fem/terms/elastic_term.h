@@ -56,6 +56,9 @@ class ElasticTerm : public Term {
     return voigt(definition().stiffness);
   }  // Pa, in material axes; component order of stiffness.h
 
+  // Whether another law has taken the place of the corotational one, whose limits then do not hold.
+  virtual bool is_replaced() const { return false; }
+
   // Description of the law, such as "corotational, exact gradient".
   virtual std::string law() const = 0;
 

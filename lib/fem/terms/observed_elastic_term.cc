@@ -11,6 +11,13 @@ std::string ObservedElasticTerm::description() const {
   return fmt::format("{}: {}, {} elements", name(), law(), std::max(size(), definition().elements));
 }
 
+// The terms whose stress is added to that of own().
+std::vector<const AddedTerm*> ObservedElasticTerm::observed() const {
+  std::vector<const AddedTerm*> all = added_;
+  if (replacing_) all.push_back(replacing_.get());
+  return all;
+}
+
 // Without the stress of a replaced law.
 PointObservation ObservedElasticTerm::own(PointObservation observation) const {
   if (is_replaced()) observation.cauchy.setZero();
@@ -19,7 +26,7 @@ PointObservation ObservedElasticTerm::own(PointObservation observation) const {
 
 PointObservation ObservedElasticTerm::observe(int k, const NodalState& s) const {
   PointObservation out = own(elastic_->observe(k, s));
-  for (const AddedTerm* term : added_) {
+  for (const AddedTerm* term : observed()) {
     Mat3 sum = Mat3::Zero();
     double volume = 0;
     term->visit_stresses_of(k, s, [&](int, int p, const Mat3& cauchy, const Mat3&) {
@@ -33,7 +40,7 @@ PointObservation ObservedElasticTerm::observe(int k, const NodalState& s) const 
 
 PointObservation ObservedElasticTerm::observe_point(int k, int p, const NodalState& s) const {
   PointObservation out = own(elastic_->observe_point(k, p, s));
-  for (const AddedTerm* term : added_)
+  for (const AddedTerm* term : observed())
     term->visit_stresses_of(k, s, [&](int, int point, const Mat3& cauchy, const Mat3&) {
       if (point == p) out.cauchy += cauchy;
     });
@@ -43,7 +50,7 @@ PointObservation ObservedElasticTerm::observe_point(int k, int p, const NodalSta
 std::vector<PointObservation> ObservedElasticTerm::observe_element(int k, const NodalState& s) const {
   std::vector<PointObservation> all = elastic_->observe_element(k, s);
   for (PointObservation& observation : all) observation = own(observation);
-  for (const AddedTerm* term : added_)
+  for (const AddedTerm* term : observed())
     term->visit_stresses_of(
         k, s, [&](int, int p, const Mat3& cauchy, const Mat3&) { all[static_cast<std::size_t>(p)].cauchy += cauchy; });
   return all;
@@ -52,7 +59,7 @@ std::vector<PointObservation> ObservedElasticTerm::observe_element(int k, const 
 void ObservedElasticTerm::observe_points(const NodalState& s, const VisitPoint& visit) const {
   std::vector<Mat3> added(static_cast<std::size_t>(size() * num_points()), Mat3::Zero());
   const auto at = [&](int k, int p) -> Mat3& { return added[static_cast<std::size_t>(k * num_points() + p)]; };
-  for (const AddedTerm* term : added_)
+  for (const AddedTerm* term : observed())
     term->visit_stresses(s, [&](int k, int p, const Mat3& cauchy, const Mat3&) { at(k, p) += cauchy; });
   elastic_->observe_points(s, [&](int k, int p, const PointObservation& elastic) {
     PointObservation observation = own(elastic);
@@ -64,7 +71,7 @@ void ObservedElasticTerm::observe_points(const NodalState& s, const VisitPoint& 
 Eigen::Matrix<double, 6, Eigen::Dynamic> ObservedElasticTerm::stresses(const NodalState& s) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic> out = elastic_->stresses(s);
   if (is_replaced()) out.setZero();
-  for (const AddedTerm* term : added_)
+  for (const AddedTerm* term : observed())
     term->visit_stresses(s, [&](int k, int p, const Mat3&, const Mat3& t) {
       out.col(k * num_points() + p) += Vec6(t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0));
     });

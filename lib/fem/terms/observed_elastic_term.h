@@ -1,6 +1,7 @@
 // The elastic term of a region whose stress is observed together with that of added terms (added_term.h), which are
-// separate terms of the model. All other functions are those of the elastic term. If an added term replaces the elastic
-// law, the elastic term has neither force nor energy and serves for strains and axes only.
+// separate terms of the model. All other functions are those of the elastic term; or, if another law replaces the
+// elastic one, force, energy and stress are those of that law's term, and the elastic term serves for strains and axes
+// only.
 #pragma once
 
 #include <memory>
@@ -15,31 +16,32 @@ namespace orthodyn {
 
 class ObservedElasticTerm final : public ElasticTerm {
  public:
-  // The added terms must outlive this object. `law`: the name of the law that replaces the elastic one; "" for none.
-  ObservedElasticTerm(std::unique_ptr<ElasticTerm> elastic, std::vector<const AddedTerm*> added, std::string law)
-      : elastic_(std::move(elastic)), added_(std::move(added)), replacing_law_(std::move(law)) {}
+  // The added terms must outlive this object. `replacing`: the term of the law that replaces the elastic one; null for
+  // none.
+  ObservedElasticTerm(std::unique_ptr<ElasticTerm> elastic, std::vector<const AddedTerm*> added,
+                      std::unique_ptr<AddedTerm> replacing)
+      : elastic_(std::move(elastic)), added_(std::move(added)), replacing_(std::move(replacing)) {}
 
   std::string name() const override { return elastic_->name(); }
   std::string description() const override;
   std::size_t bytes() const override { return elastic_->bytes(); }
-  void add_force(const NodalState& s, NodalVector& f) const override {
-    if (!is_replaced()) elastic_->add_force(s, f);
-  }
+  void add_force(const NodalState& s, NodalVector& f) const override { source().add_force(s, f); }
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
-    if (!is_replaced()) elastic_->add_mean_force(s0, s1, f);
+    source().add_mean_force(s0, s1, f);
   }
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
-    if (!is_replaced()) elastic_->add_tangent(s, kind, K, D);
+    source().add_tangent(s, kind, K, D);
   }
   void add_predicted_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    if (!is_replaced()) elastic_->add_predicted_tangent(before, s, K);
+    source().add_predicted_tangent(before, s, K);
   }
-  double energy(const NodalState& s) const override { return is_replaced() ? 0 : elastic_->energy(s); }
-  double dissipation(const NodalState& s) const override { return is_replaced() ? 0 : elastic_->dissipation(s); }
+  double energy(const NodalState& s) const override { return source().energy(s); }
+  double dissipation(const NodalState& s) const override { return source().dissipation(s); }
 
   const ElasticRegion& definition() const override { return elastic_->definition(); }
-  std::string law() const override { return is_replaced() ? replacing_law_ : elastic_->law(); }
+  std::string law() const override { return replacing_ ? replacing_->law() : elastic_->law(); }
   std::vector<const AddedTerm*> added() const override { return added_; }
+  bool is_replaced() const override { return replacing_ != nullptr; }
   bool has_energy() const override { return elastic_->has_energy(); }
   int size() const override { return elastic_->size(); }
   int cell(int k) const override { return elastic_->cell(k); }
@@ -61,12 +63,13 @@ class ObservedElasticTerm final : public ElasticTerm {
   Eigen::Matrix<double, 6, Eigen::Dynamic> stresses(const NodalState& s) const override;
 
  private:
-  bool is_replaced() const { return !replacing_law_.empty(); }
+  const Term& source() const { return replacing_ ? static_cast<const Term&>(*replacing_) : *elastic_; }
+  std::vector<const AddedTerm*> observed() const;
   PointObservation own(PointObservation observation) const;
 
   std::unique_ptr<ElasticTerm> elastic_;
   std::vector<const AddedTerm*> added_;
-  std::string replacing_law_;
+  std::unique_ptr<AddedTerm> replacing_;
 };
 
 }  // namespace orthodyn

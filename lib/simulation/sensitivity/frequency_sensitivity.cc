@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "lib/fem/terms/added_term.h"
 #include "lib/mesh/selection.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/sensitivity/changed_models.h"
@@ -166,6 +167,11 @@ std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, c
                                                           const std::vector<SceneParameter>& parameters) {
   std::vector<FrequencySensitivity> out;
   if (parameters.empty()) return out;
+  for (const auto& term : model.parts().loads)
+    if (dynamic_cast<const AddedTerm*>(term.get()) && !term->is_load())
+      throw ConfigError(parameters.front().path(),
+                        "derivatives of natural frequencies do not exist with passive fibres, whose stiffness jumps at "
+                        "rest");
   const Modes whole = with_whole_clusters(model, rest, modes);
   const Scene read = read_scene(scene);
   for (const SceneParameter& parameter : parameters)

@@ -146,11 +146,53 @@ TEST(SwellingInput, MistakesAreRefused) {
   EXPECT_THAT(message("moisture: {change: 1, kinks: [1]}"), HasSubstr("kinks"));
   EXPECT_THAT(message("moisture: {change: 1}\nelasticity: {corotation: warped}"), HasSubstr("warped"));
   EXPECT_THAT(message("moisture: {change: 1/0}"), HasSubstr("finite"));
+  EXPECT_THAT(message("moisture: {change: 1, factor: {type: harmonic}}"), HasSubstr("is for loads"));
   const std::string file = testing::TempDir() + "few.csv";
   std::ofstream(file) << "node,change\n0,1\n";
   EXPECT_THAT(message(fmt::format("moisture: {{file: {}}}", file)), HasSubstr("has no value for node 1"));
   std::ofstream(file) << "node,change\n0,1\n0,2\n";
   EXPECT_THAT(message(fmt::format("moisture: {{file: {}}}", file)), HasSubstr("node 0 is given twice"));
+}
+
+// The values at the points of an element stay within those at its nodes, where quadratic functions would not.
+TEST(SwellingInSpace, NodalValuesThatJumpDoNotOvershoot) {
+  const std::string mesh = "cells: [2, 1, 1], elements: hexahedra, order: 2";
+  const BuiltTestScene whole(block("moisture: {change: 1}", mesh));
+  const std::string file = testing::TempDir() + "jump.csv";
+  std::ofstream out(file);
+  out << "node,change\n";
+  const auto& nodes = whole.mesh().nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) out << fmt::format("{},{}\n", i, nodes[i][0] > 0.99 ? 1 : 0);
+  out.close();
+  const BuiltTestScene jump(block(fmt::format("moisture: {{file: {}}}", file), mesh));
+  const auto stress_11 = [](const BuiltTestScene& s) {
+    const NodalVector zero = NodalVector::Zero(3, s.model().parts().rest->cols());
+    return Vector(s.model().parts().elastic.front()->stresses({0, *s.model().parts().rest, zero, zero}).row(0));
+  };
+  const double full = stress_11(whole)[0];  // negative where the material would expand along 1
+  for (const double s : stress_11(jump)) {
+    EXPECT_GE(s / full, -1e-14);
+    EXPECT_LE(s / full, 1 + 1e-14);
+  }
+}
+
+TEST(RubberInput, MistakesAreRefused) {
+  const auto message = [](const std::string& more) -> std::string {
+    try {
+      const BuiltTestScene s("mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}\ntime: {end: 1}\n" + more);
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  using testing::HasSubstr;
+  const std::string isotropic = "materials: {m: {type: isotropic, density: 1, young: 1, nu: 0.3}}\n";
+  EXPECT_THAT(message("materials: {m: " + fibre_material(2) + "}\nregions: {all: {material: m, law: neo_hookean}}"),
+              HasSubstr("not isotropic"));
+  EXPECT_THAT(message(isotropic + "regions: {all: {material: m, law: neo_hookean, kinematics: linear}}"),
+              HasSubstr("no effect"));
+  EXPECT_THAT(message(isotropic + "regions: {all: {material: m, law: neo_hookean, formulation: mixed}}"),
+              HasSubstr("mixed"));
 }
 
 TEST(SwellingInput, AFieldThatNoMaterialUsesIsRefused) {
