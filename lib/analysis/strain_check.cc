@@ -78,9 +78,13 @@ Strains small_strains(const ElasticTerm& term, const NodalVector& u) {
   return out;
 }
 
+// Whether the limits hold for the strains of a region. They do not where added laws carry a part of the stress, or
+// strain the body without stress.
+bool has_limits(const ElasticTerm& term) { return !term.is_replaced() && term.added().empty(); }
+
 // Whether a body of this material can reach a limit.
 bool has_reachable_limit(const ElasticTerm& term) {
-  if (term.is_replaced()) return false;
+  if (!has_limits(term)) return false;
   for (const AxisLimits& axis : strain_limits(term.definition().stiffness))
     if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
   return false;
@@ -96,7 +100,7 @@ double smallest(const std::array<AxisLimits, 3>& limits) {
 
 // The norm of Green's strain up to which the law's strain cannot exceed a limit.
 double safe_green_strain(const ElasticTerm& term) {
-  if (term.definition().options.kinematics == Kinematics::linear || term.is_replaced())
+  if (term.definition().options.kinematics == Kinematics::linear || !has_limits(term))
     return std::numeric_limits<double>::infinity();
   const Stiffness& stiffness = term.definition().stiffness;
   const double largest_ratio = kMargin * stress_over_young(stiffness).rowwise().norm().maxCoeff();
@@ -117,7 +121,7 @@ Warnings strain_warnings(const FemModel& model, const State& initial, const Stat
   if (statics.exists()) model.parts().dofs->add_to(statics.displacement, u);
   const NodalExpansion start(model.parts(), initial.t, initial.q, initial.v);
   for (const auto& term : model.parts().elastic) {
-    if (term->is_replaced()) continue;
+    if (!has_limits(*term)) continue;
     const Stiffness& stiffness = term->definition().stiffness;
     const auto limits = strain_limits(stiffness);
     const Mat36 equivalent = stress_over_young(stiffness);

@@ -76,6 +76,7 @@ class FormulaValues : public PointValues {
                 std::vector<double> kinks, int points)
       : PointValues(points),
         formula_(std::move(formula)),
+        is_constant_(!formula_.uses("t")),
         places_(std::move(places)),
         samples_(std::move(samples)),
         kinks_(std::move(kinks)),
@@ -84,7 +85,7 @@ class FormulaValues : public PointValues {
     limits_.push_back(start);
   }
 
-  bool constant() const override { return !formula_.uses("t"); }
+  bool constant() const override { return is_constant_; }
   std::size_t bytes() const override { return static_cast<std::size_t>(places_.size() + 2 * size()) * sizeof(double); }
   std::vector<double> kinks() const override { return kinks_; }
   double seconds_at_peak(double start, double end) const override { return end - start; }
@@ -119,6 +120,7 @@ class FormulaValues : public PointValues {
   Eigen::Index size() const override { return places_.cols(); }
 
   TimePointFormula formula_;
+  bool is_constant_;
   Eigen::Matrix3Xd places_, samples_;
   std::vector<double> kinks_, limits_;  // limits_: kinks and start, which differences do not cross
   DifferenceStep step_;

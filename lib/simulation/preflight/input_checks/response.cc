@@ -100,7 +100,10 @@ Warnings check_response(const Config& config, const Scene& scene, const BuiltSce
   if (!statics.load.allFinite())
     throw ConfigError(error.place, "the loads exceed the range of numbers; " + error.words);
   if (!statics.exists()) return {};
-  if (scene.activation) return {};  // the force-length factor limits the contraction of muscles; linear statics do not
+  // Fibres stiffen when stretched, and the force-length factor limits the contraction of muscles; linear statics know
+  // neither.
+  const auto has_fibres = [](const auto& material) { return material.second->fibres().has_value(); };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), has_fibres)) return {};
   const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
   if (share > kImpossible) throw ConfigError(error.place, fmt::format("{}; {}", finding, error.words));
