@@ -72,7 +72,7 @@ materials:
 regions: {body: {material: wood, axes: {first: [0, 1, 0], second: [1, 0, 0]}}}
 moisture: {formula: '1000*z*sin(20*t)'}
 clamps: [{surface: x0}]
-damping: {mass: 5}
+damping: {mass: 5, stiffness: 1e-3}
 time: {end: 0.05}
 integrator: {type: cvode_bdf, rtol: 1e-6}
 expect:
