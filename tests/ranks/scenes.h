@@ -59,7 +59,7 @@ gravity: [0, 0, -9.81]
           {"swollen", box + head + R"(
 regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], axis: [1, 0, 0]}}}
 clamps: [{surface: x0}]
-moisture: {formula: "3*x*(1 + y)*sin(20*t)"}
+moisture: {formula: '3*x*(1 + y)*sin(20*t)'}
 )"},
           // Plies that two cells share.
           {"layers", "mesh: {type: box, size: [1, 0.2, 0.04], cells: [6, 2, 2], elements: hexahedra}\n" + head + R"(
