@@ -89,7 +89,7 @@ class AModel(unittest.TestCase):
         self.assertEqual(list(slopes), ["gravity.2"] + [f"{factors}.values.{k}" for k in range(3)])
         self.assertAlmostEqual(-9.81 * slopes["gravity.2"] / value, 1, delta=1e-3)
         self.assertGreater(slopes[f"{factors}.values.0"], 10 * abs(slopes[f"{factors}.values.2"]))
-        with self.assertRaisesRegex(orthodyn.ConfigError, "no such probe; it has tip"):
+        with self.assertRaisesRegex(orthodyn.ConfigError, "no such probe or gauge; it has tip"):
             scene.model().gradient("top.displacement.z", factors)
 
     def test_is_in_equilibrium_where_it_says(self):
