@@ -56,7 +56,7 @@ std::vector<std::shared_ptr<const StretchFunction>> all_functions() {
   return {passive(kExponential), passive(kMeasured), length(kGaussian), length(kTable), length("{type: gaussian}")};
 }
 
-// The numbers are those of the formula of Holzapfel, Gasser & Ogden, computed with Python.
+// Expected values: the formula of Holzapfel, Gasser & Ogden, evaluated outside of this program.
 TEST(Fibres, ExponentialTensionAndEnergyAreThoseOfTheFormula) {
   const auto g = passive(kExponential);
   const double stretch[] = {1.05, 1.2, 1.4}, energy[] = {5.30870424823936, 118.2127580061208, 1329.1798640382137},

@@ -39,7 +39,7 @@ parameters: {E: materials.m.young}
 refine: false
 )");
   EXPECT_NEAR(found["parameters"][0]["value"].get<double>(), 1, 1e-6);  // GPa
-  // The relative deviation of E is that of the strain.
+  // The strain is proportional to 1/E, so both have the same relative error.
   EXPECT_NEAR(found["parameters"][0]["deviation"].get<double>(), 0.01, 1e-6);
 }
 

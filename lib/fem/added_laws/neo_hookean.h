@@ -1,5 +1,5 @@
 // The neo-Hookean law (lib/element/neo_hookean.h) in place of the corotational one, for large strains of rubber. The
-// region's elastic term then observes strains only (ObservedElasticTerm).
+// region's elastic term then serves for strains and axes only (ObservedElasticTerm).
 #pragma once
 
 #include <memory>

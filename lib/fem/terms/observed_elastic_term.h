@@ -24,7 +24,7 @@ class ObservedElasticTerm final : public ElasticTerm {
 
   std::string name() const override { return elastic_->name(); }
   std::string description() const override;
-  std::size_t bytes() const override { return elastic_->bytes(); }
+  std::size_t bytes() const override { return elastic_->bytes() + (replacing_ ? replacing_->bytes() : 0); }
   void add_force(const NodalState& s, NodalVector& f) const override { source().add_force(s, f); }
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
     source().add_mean_force(s0, s1, f);

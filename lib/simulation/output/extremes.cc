@@ -51,7 +51,8 @@ ExtremeRecorder::ExtremeRecorder(const Scene& scene, const FemModel& model) : sc
   }
 }
 
-// The probe of PROBE.FIELD.COMPONENT.largest; "" if there is none. The name of a region precedes that of a probe.
+// The probe named at the start of an extreme such as "tip.displacement.z.largest"; "" if no probe has that name. If a
+// region has the same name, the extreme belongs to the region.
 std::string ExtremeRecorder::probe_of(const std::string& name) const {
   const auto is_first_part = [&](const std::string& part) { return !part.empty() && name.starts_with(part + "."); };
   for (const auto& term : model_.parts().elastic)

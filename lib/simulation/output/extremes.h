@@ -27,7 +27,7 @@ struct RecordedExtreme {
   int term = -1;              // as in Extreme
   std::string region = {};    // the region or ply; "" if there is only one
   long states = 0;            // number of states evaluated
-  bool between_rows = false;  // whether all times count, not only those of the history
+  bool between_rows = false;  // true: extremes between the rows of the history count too
   // By the path of the parameter, per its SI unit; empty without `sensitivities`, and if `remark` says so.
   std::vector<std::pair<std::string, double>> derivatives = {};
   std::string remark = {};  // on the derivatives; "" if there is none

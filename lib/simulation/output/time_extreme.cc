@@ -45,7 +45,7 @@ void TimeExtreme::advance(double begin, double end, const Function& f) {
     last_.jumps = found.jumps;
     if (end - found.t > kSameTime * h && found.value > s[kParts]) complete(found), last_ = {};
   } else if (s[kParts] == s[kParts - 1]) {
-    last_ = {end, s[kParts]};  // a constant function: any time is that of its maximum
+    last_ = {end, s[kParts]};  // the function is constant: it has its maximum at every time
   }
 }
 

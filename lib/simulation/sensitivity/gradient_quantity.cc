@@ -20,7 +20,7 @@ namespace {
                                   "in the scene");
 }
 
-// The part of a quantity's name after that of a probe or gauge; "" if it is another one.
+// The quantity's name without the name of the probe or gauge at its start; "" if another probe or gauge is named.
 std::string field_of(const std::string& quantity, const std::string& name) {
   return quantity.starts_with(name + ".") ? quantity.substr(name.size() + 1) : "";
 }

@@ -29,8 +29,8 @@ struct ShapeSensitivity {
 
 struct ShapeSensitivities {
   std::vector<ShapeSensitivity> by_parameter;
-  // By mode: the reason for a missing derivative, such as "its frequency equals that of mode 8"; "" for a mode that has
-  // a derivative.
+  // One entry per mode: "" if its derivative was computed, else the reason why not, such as "its frequency equals that
+  // of mode 8".
   std::vector<std::string> missing;
 };
 

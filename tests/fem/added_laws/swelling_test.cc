@@ -112,8 +112,8 @@ TEST(SwellingInSpace, NodalValuesAreInterpolatedByTheShapeFunctions) {
   }
 }
 
-// A temperature that is linear in space strains an isotropic free body without stress: with e = a T I, the displacement
-// is that of a body that bends.
+// A free isotropic body has no stress under a temperature that is linear in space: the strain a T I is compatible, and
+// the body bends.
 TEST(SwellingInSpace, ALinearTemperatureBendsAFreeBodyWithoutStress) {
   const double a = 1e-3, slope = 0.7;
   const BuiltTestScene s(fmt::format(R"(
