@@ -4,6 +4,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/element/axial.h"
+#include "lib/element/lanes.h"
 #include "lib/element/polar.h"
 
 namespace orthodyn {
@@ -30,14 +31,11 @@ Mat3T<Batch> cofactor_of(const Mat3T<Batch>& A) {
 }
 
 Batch log1p(const Batch& x) {
-  double lanes[Batch::kLanes];
-  x.store(lanes);
-  for (double& lane : lanes) {
-    if (!(lane > -1) || !std::isfinite(lane))
+  return per_lane([&](int l) {
+    if (!(x[l] > -1) || !std::isfinite(x[l]))
       throw RecoverableError("an element is inverted or flat, where a neo-Hookean energy is infinite");
-    lane = std::log1p(lane);
-  }
-  return Batch::load(lanes);
+    return std::log1p(x[l]);
+  });
 }
 
 Kinematics3 kinematics(const Mat3T<Batch>& H_in_axes, const Mat3T<Batch>& Q) {
@@ -84,17 +82,8 @@ Mat3T<Batch> neo_hookean_turned_stress(const IsotropicStiffness& c, const Mat3T<
   Polar<Batch> p;
   const Batch::Mask good = polar(F, p);
   Mat3T<Batch> turned = p.R.transpose() * P;
-  for (int l = 0; l < Batch::kLanes; ++l) {
-    if (good[l]) continue;
-    const auto lane = [&](const Mat3T<Batch>& m) -> Mat3 { return m.unaryExpr([&](const Batch& x) { return x[l]; }); };
-    const Mat3 own = polar(lane(F), lane(Q)).R.transpose() * lane(P);
-    for (int i = 0; i < 9; ++i) {
-      double lanes[Batch::kLanes];
-      turned(i).store(lanes);
-      lanes[l] = own(i);
-      turned(i) = Batch::load(lanes);
-    }
-  }
+  for_each_lane_outside(
+      good, [&](int l) { set_lane(turned, l, polar(lane_of(F, l), lane_of(Q, l)).R.transpose() * lane_of(P, l)); });
   return turned;
 }
 

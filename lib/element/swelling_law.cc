@@ -2,32 +2,15 @@
 
 #include "lib/core/errors.h"
 #include "lib/element/corotational_law.h"
+#include "lib/element/lanes.h"
 
 namespace orthodyn {
 
 namespace {
 
-Mat3 lane_of(const Mat3T<Batch>& m, int lane) {
-  return m.unaryExpr([&](const Batch& x) { return x[lane]; });
-}
-
-// Sets one lane of a number.
-void set_lane(Batch& all, int lane, double value) {
-  double lanes[Batch::kLanes];
-  all.store(lanes);
-  lanes[lane] = value;
-  all = Batch::load(lanes);
-}
-
 Batch::Mask regular(const Mat3T<Batch>& F, Polar<Batch>& p) {
   const Batch::Mask good = polar(F, p);
   return good & is_regular<Batch>(p.S, p.det_G);
-}
-
-template <class Visit>
-void for_each_other(const Batch::Mask& good, Visit&& visit) {
-  for (int l = 0; l < Batch::kLanes; ++l)
-    if (!good[l]) visit(l);
 }
 
 // -(s + [c]) for chi = 1; e = S - I.
@@ -66,10 +49,8 @@ Mat3T<Batch> swelling_stress(const Mat3T<Batch>& H, const Mat3T<Batch>& Q, const
   Polar<Batch> p;
   const Batch::Mask good = regular(deformation_gradient<Batch>(H, Q), p);
   Mat3T<Batch> P = p.R * regular_stress<Batch>(p, stretch_strain<Batch>(H, Q, p.S), s);
-  for_each_other(good, [&](int l) {
-    const Mat3 one = blended_stress(lane_of(H, l), lane_of(Q, l), lane_of(s, l));
-    for (int i = 0; i < 9; ++i) set_lane(P(i), l, one(i));
-  });
+  for_each_lane_outside(good,
+                        [&](int l) { set_lane(P, l, blended_stress(lane_of(H, l), lane_of(Q, l), lane_of(s, l))); });
   return P;
 }
 
@@ -77,8 +58,8 @@ Batch swelling_energy(const Mat3T<Batch>& H, const Mat3T<Batch>& Q, const Mat3T<
   Polar<Batch> p;
   const Batch::Mask good = regular(deformation_gradient<Batch>(H, Q), p);
   Batch energy = -contract<Batch>(s, stretch_strain<Batch>(H, Q, p.S));
-  for_each_other(good,
-                 [&](int l) { set_lane(energy, l, blended_energy(lane_of(H, l), lane_of(Q, l), lane_of(s, l))); });
+  for_each_lane_outside(
+      good, [&](int l) { set_lane(energy, l, blended_energy(lane_of(H, l), lane_of(Q, l), lane_of(s, l))); });
   return energy;
 }
 
@@ -103,14 +84,13 @@ Mat3T<Batch> mean_swelling_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1
     return Mat3T<T>(F_mean * solve_lyapunov<T>(T(0.5) * (S0 + S1), T(-2) * stress));
   };
   Mat3T<Batch> P = between(F, p0.S, p1.S, s);
-  for_each_other(good, [&](int l) {
+  for_each_lane_outside(good, [&](int l) {
     const Point at0(lane_of(H0, l), lane_of(Q, l)), at1(lane_of(H1, l), lane_of(Q, l));
     for (const Point* at : {&at0, &at1})
       if (!(at->p.S.determinant() > 0) || at->b.chi < 1)
         throw RecoverableError(
             "an element is inverted or flat; the force of energy-conserving steps is undefined there");
-    const Mat3 one = between(lane_of(F, l), at0.p.S, at1.p.S, lane_of(s, l));
-    for (int i = 0; i < 9; ++i) set_lane(P(i), l, one(i));
+    set_lane(P, l, between(lane_of(F, l), at0.p.S, at1.p.S, lane_of(s, l)));
   });
   return P;
 }

@@ -2,17 +2,10 @@
 #pragma once
 
 #include "lib/element/fibre.h"
+#include "lib/element/lanes.h"
 #include "lib/fem/added_laws/added_law.h"
 
 namespace orthodyn {
-
-// A number per lane from a function of the lane.
-template <class Function>
-Batch per_lane(Function&& f) {
-  double lanes[Batch::kLanes];
-  for (int l = 0; l < Batch::kLanes; ++l) lanes[l] = f(l);
-  return Batch::load(lanes);
-}
 
 // Its functions throw RecoverableError if the stretch of a fibre is zero, or the stretch or the tension not finite.
 class FibreLawAt : public AddedLawAt {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/element/lanes.h"
 #include "lib/fem/added_laws/added_law.h"
 #include "lib/fem/batch_loops.h"
 #include "lib/fem/element_assembly.h"
@@ -194,10 +195,6 @@ class AddedTermOf final : public AddedTerm {
       }
       return sum;
     });
-  }
-
-  static Mat3 lane_of(const Mat3T<Batch>& m, int lane) {
-    return m.unaryExpr([&](const Batch& x) { return x[lane]; });
   }
 
   template <class Visit>
