@@ -62,7 +62,7 @@ class VelocityVerletChoice : public SettableChoice<VelocityVerletChoice> {
     return s;
   }
 
-  std::unique_ptr<Integrator> make(const Model& model, const Task&) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task&) const override {
     if (model.traits().dissipative)
       throw ConfigError("velocity_verlet does not support forces that depend on velocity; remove the damping");
     return std::make_unique<VelocityVerlet>(model, step);

@@ -104,8 +104,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     const double h = kRetryFactor * current_step();
     if (method_.step || callback_context_.failure || h < options_.h_min || end_.t + h == end_.t) return false;
     ++retries_;
-    positions(y()) = end_.q;
-    velocities(y()) = end_.v;
+    positions(y(), internals()) = end_.q;
+    velocities(y(), internals()) = end_.v;
+    internal_part(y(), internals()) = z_end_;
     require(ARKStepReset(memory(), end_.t, y()));
     restart_renewal();
     require(ARKStepSetInitStep(memory(), h));
@@ -114,7 +115,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
 
   // Before the first step: sets end_ and the accelerations there.
   void begin_at(double t) {
-    end_ = {t, positions(y()), velocities(y()), Vector(model_.num_dofs())};
+    end_ = {t, positions(y(), internals()), velocities(y(), internals()), Vector(model_.num_dofs())};
+    z_end_ = internal_part(y(), internals());
     if (is_split()) {
       initial_acceleration(*explicit_.model, t, explicit_.at_end);
       initial_acceleration(*implicit_.model, t, end_.a);
@@ -130,8 +132,10 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   void take_end(double t) {
     std::swap(begin_, end_);
     end_.t = t;
-    end_.q = positions(y());
-    end_.v = velocities(y());
+    end_.q = positions(y(), internals());
+    end_.v = velocities(y(), internals());
+    std::swap(z_begin_, z_end_);
+    z_end_ = internal_part(y(), internals());
     end_.a.resize(model_.num_dofs());
     if (is_split()) {
       explicit_.at_end = explicit_.last;
@@ -150,15 +154,30 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     N_Vector predicted, stage, stage_derivative, data;
     void* user;
     require(ARKStepGetNonlinearSystemData(memory(), &at, &predicted, &stage, &stage_derivative, &gamma, &data, &user));
-    return velocities(stage_derivative);
+    return velocities(stage_derivative, internals());
   }
 
   int last_order() const override { return main_table().q; }
   long retries() const override { return retries_; }
 
   int dense_output(double t, N_Vector out) const override {
-    orthodyn::interpolate(begin_, end_, t, positions(out), velocities(out));
+    orthodyn::interpolate(begin_, end_, t, positions(out, internals()), velocities(out, internals()));
+    if (internal_) internal_part(out, internals()) = interpolated_internals(t);
     return 0;
+  }
+
+  // The cubic Hermite polynomial through the internal variables and their rates at both ends of the step.
+  Vector interpolated_internals(double t) const {
+    const double h = end_.t - begin_.t, x = (t - begin_.t) / h;
+    if (!(h > 0)) return z_end_;
+    const auto rate = [&](const StepEnd& at, const Vector& z) -> Vector {
+      Vector e(z.size());
+      internal_->internal().strains(at.t, at.q, e);
+      return (e - z).cwiseQuotient(internal_->internal().relaxation_times());
+    };
+    const Vector change = z_end_ - z_begin_;
+    return z_begin_ + x * x * (3 - 2 * x) * change + h * x * (1 - x) * (1 - x) * rate(begin_, z_begin_) -
+           h * x * x * (1 - x) * rate(end_, z_end_);
   }
 
   Reason classify(int flag) const override {
@@ -219,14 +238,19 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   static int explicit_right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
     if (me.is_split()) positions(y_dot).setZero();
-    else positions(y_dot) = velocities(y);
-    return me.acceleration(me.explicit_, t, y, velocities(y_dot));
+    return me.is_split() ? me.acceleration(me.explicit_, t, y, velocities(y_dot))
+                         : me.all_rates(me.explicit_, t, y, y_dot);
   }
 
   static int implicit_right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
-    positions(y_dot) = velocities(y);
-    return me.acceleration(me.implicit_, t, y, velocities(y_dot));
+    return me.all_rates(me.implicit_, t, y, y_dot);
+  }
+
+  int all_rates(ArkPart& part, double t, N_Vector y, N_Vector y_dot) {
+    positions(y_dot, internals()) = velocities(y, internals());
+    const int flag = acceleration(part, t, y, velocities(y_dot, internals()));
+    return flag ? flag : evaluate_internal_rates(t, y, y_dot);
   }
 
   // Acceleration by one part of the force. At the end of the last step it is known and not evaluated again. The first
@@ -234,7 +258,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   int acceleration(ArkPart& part, double t, N_Vector y, VectorRef a) {
     bool is_known = false;
     const int thrown = guarded(callback_context_, [&] {
-      is_known = t == end_.t && model_.space().all(positions(y) == end_.q && velocities(y) == end_.v);
+      is_known = t == end_.t &&
+                 model_.space().all(positions(y, internals()) == end_.q && velocities(y, internals()) == end_.v &&
+                                    internal_part(y, internals()) == z_end_);
       if (is_known) a = part.at_end;
     });
     if (thrown != 0 || is_known) return thrown;
@@ -253,8 +279,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   }
 
   ArkPart explicit_, implicit_;
-  long retries_ = 0;     // steps restarted because a force could not be evaluated, since the last (re-)start
-  StepEnd begin_, end_;  // ends of the last step
+  long retries_ = 0;        // steps restarted because a force could not be evaluated, since the last (re-)start
+  StepEnd begin_, end_;     // ends of the last step
+  Vector z_begin_, z_end_;  // internal variables there
   std::optional<StageNewton> stage_newton_;
   std::unique_ptr<void, FreeArkStep> memory_;
 };

@@ -22,7 +22,8 @@ class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public Options
         "linear invariants (momentum)", "Reynolds et al., ACM TOMS 49, 2023; Kennedy & Carpenter, NASA TM-2016-219173");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::own; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     Tableau tableau(ARKodeButcherTable_LoadDIRK(table));
     ArkMethod method{.name = "arkode_dirk", .step = step, .stiffly_accurate = ends_in_a_stage(*tableau)};
     method.implicit_table = ending_in_a_stage(std::move(tableau));

@@ -37,7 +37,8 @@ class ArkodeErkChoice : public SettableChoice<ArkodeErkChoice>, public ErrorCont
         "Reynolds et al., ACM TOMS 49, 2023; Dormand & Prince, J. Comput. Appl. Math. 6, 1980");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::own; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     if (!step) refuse_too_many_steps("arkode_erk", model, task, kReach, max_steps);
     ArkMethod method{.name = "arkode_erk", .step = step};
     method.explicit_table = ending_in_a_stage(Tableau(ARKodeButcherTable_LoadERK(table)));

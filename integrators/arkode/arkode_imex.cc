@@ -63,7 +63,7 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public Options
                         "Kennedy & Carpenter, Appl. Numer. Math. 44, 2003, and 136, 2019");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     ArkMethod method{.name = "arkode_imex", .step = step, .split = split_force(model, explicit_parts)};
     const auto pair = pair_of(table);

@@ -78,7 +78,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
   bool computes_sensitivities() const override {
     return !method || Registry<IntegratorChoice>::entries().at(*method).make()->computes_sensitivities();
   }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::own; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // needed even if both scales are given
     const MethodChoice choice =
@@ -106,6 +107,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
     if (task.sensitivities) return {.method = "cvode_bdf", .rationale = "it integrates sensitivities with the motion"};
+    if (model.internal_variables())
+      return {.method = "cvode_bdf", .rationale = "it controls the error of viscoelastic strains"};
     // central_differences cannot limit its steps by h0, h_min and h_max.
     const bool limits_steps = h0 || h_max || h_min > 0;
     const CostEstimate cost = estimate_cost(model, task, own, linear_solver);

@@ -221,8 +221,10 @@ class Cvode final : public SundialsIntegrator {
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
-    positions(y_dot) = velocities(y);
-    return me.evaluate_acceleration(me.model_, t, y, velocities(y_dot));
+    const Eigen::Index m = me.internals();
+    positions(y_dot, m) = velocities(y, m);
+    const int flag = me.evaluate_acceleration(me.model_, t, y, velocities(y_dot, m));
+    return flag ? flag : me.evaluate_internal_rates(t, y, y_dot);
   }
 
   static int sensitivity_derivative(int, sunrealtype t, N_Vector y, N_Vector y_dot, int i, N_Vector s, N_Vector s_dot,

@@ -43,7 +43,7 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public Options
   }
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return nonlinear == StepIteration::newton; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     CvodeMethod method{
         .name = "cvode_adams", .family = CV_ADAMS, .max_order = max_order, .simultaneous = is_simultaneous()};
     if (nonlinear == StepIteration::fixed_point) method.anderson = anderson;

@@ -23,7 +23,8 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
   }
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::own; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
     const CvodeMethod method{

@@ -115,8 +115,9 @@ class IdaBdf final : public SundialsIntegrator {
 
   // Sets q' = v and v' = M^-1 f, so that the initial values satisfy F = 0.
   void make_consistent(double t) {
-    positions(y_dot_.get()) = velocities(y());
-    initial_acceleration(model_, t, velocities(y_dot_.get()));
+    positions(y_dot_.get(), internals()) = velocities(y(), internals());
+    initial_acceleration(model_, t, velocities(y_dot_.get(), internals()));
+    evaluate_internal_rates(t, y(), y_dot_.get());
   }
 
   // Callbacks.
@@ -124,13 +125,16 @@ class IdaBdf final : public SundialsIntegrator {
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {
     auto& me = self(user);
-    return guarded(me.callback_context_, [&] {
+    const Eigen::Index m = me.internals();
+    const int flag = me.evaluate_internal_rates(t, y, r);
+    return flag ? flag : guarded(me.callback_context_, [&] {
       const Measure measure(me.statistics_.force);
-      positions(r) = positions(y_dot) - velocities(y);
-      me.model_.force(t, positions(y), velocities(y), velocities(r));
-      require_finite(me.model_, velocities(r));
-      me.model_.multiply_mass(velocities(y_dot), me.momentum_);
-      velocities(r) = me.momentum_ - velocities(r);
+      positions(r, m) = positions(y_dot, m) - velocities(y, m);
+      me.with_internals(me.model_, y).force(t, positions(y, m), velocities(y, m), velocities(r, m));
+      require_finite(me.model_, velocities(r, m));
+      me.model_.multiply_mass(velocities(y_dot, m), me.momentum_);
+      velocities(r, m) = me.momentum_ - velocities(r, m);
+      internal_part(r, m) = internal_part(y_dot, m) - internal_part(r, m);
     });
   }
 
@@ -167,7 +171,8 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options, public
   }
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::own; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes),
                                     task.sensitivities, is_simultaneous());

@@ -18,7 +18,8 @@ class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public N
                         "Hairer & Wanner 1996, IV; error estimate: difference to the trapezoidal rule");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<Dirk>("backward_euler", model, *this, scales(task), backward_euler());
   }
 };

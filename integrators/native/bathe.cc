@@ -26,7 +26,8 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
                         "Noh & Bathe 2019; error estimate: Hosea & Shampine 1996");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const double g = splitting, q1 = (rho_inf + 1) / (2 * g * (rho_inf - 1) + 4);
     return std::make_unique<Dirk>("bathe", model, *this, scales(task), composite_table(g, q1, 0.5 - g * q1));
   }

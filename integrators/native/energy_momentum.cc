@@ -183,7 +183,7 @@ class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public
         "2", "A-stable for linear models; no numerical damping", "energy, linear and angular momentum, to round-off",
         "Simo & Tarnow, ZAMP 43, 1992; Gonzalez, CMAME 190, 2000; error estimate: difference to the trapezoidal rule");
   }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<EnergyMomentum>(model, *this, scales(task));
   }
 };

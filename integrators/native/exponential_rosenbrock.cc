@@ -205,7 +205,7 @@ class ExponentialRosenbrockChoice : public SettableChoice<ExponentialRosenbrockC
                         "linear invariants (momentum), to tolerance",
                         "Hochbruck, Ostermann & Schweitzer, SIAM J. Numer. Anal. 47, 2009; Niesen & Wright 2012");
   }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     if (!step) refuse_too_many_steps("exponential_rosenbrock", model, task, krylov_reach(model), max_steps);
     return std::make_unique<ExponentialRosenbrock>(model, task, *this);
   }

@@ -27,7 +27,8 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
                         "Chung & Hulbert 1993; error estimate: Hulbert & Jang 1995");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("generalized_alpha", model, *this, scales(task), least_damping(rho_inf));
   }
 };

@@ -18,7 +18,8 @@ class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptio
                         "Hilber, Hughes & Taylor 1977; error estimate: Hulbert & Jang 1995");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const AlphaParameters p{0, -alpha, 0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha};
     return std::make_unique<AlphaMethod>("hht_alpha", model, *this, scales(task), p);
   }

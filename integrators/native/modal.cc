@@ -252,7 +252,7 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
                         "(static correction)");
   }
   bool needs_linear_model() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     if (!modes && !below)
       throw ConfigError(
           "modal needs the modes to keep: set `modes`, such as 40, or `below`, such as 2 kHz (`orthodyn modes` lists "

@@ -28,7 +28,8 @@ class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions
                         "Newmark 1959; error estimate: Zienkiewicz & Xie 1991");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("newmark", model, *this, scales(task), AlphaParameters{0, 0, beta, gamma});
   }
 };

@@ -134,7 +134,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
                         "embedded order 2 and the correction, at rtol/10");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<Rosenbrock>(model, *this, scales(task), tangent_steps);
   }
 };

@@ -52,7 +52,7 @@ class SdirkChoice : public SettableChoice<SdirkChoice>, public NewtonOptions {
                         "Alexander 1977; Hairer & Wanner 1996, IV.6; error estimates: embedded rules");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const auto table = order == 2 ? order_2() : order == 3 ? order_3() : order_4();
     return std::make_unique<Dirk>("sdirk", model, *this, scales(task), table);
   }

@@ -49,7 +49,8 @@ class SemiImplicitEulerChoice : public SettableChoice<SemiImplicitEulerChoice>, 
                         "Baraff & Witkin 1998; error estimate: difference to the trapezoidal rule");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<SemiImplicitEuler>(model, *this, scales(task));
   }
 };

@@ -23,7 +23,8 @@ class TrBdf2Choice : public SettableChoice<TrBdf2Choice>, public NewtonOptions {
                         "Bank et al. 1985; Hosea & Shampine 1996, also the error estimate");
   }
   bool runs_on_ranks() const override { return true; }
-  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<Dirk>("tr_bdf2", model, *this, scales(task), tr_bdf2());
   }
 };

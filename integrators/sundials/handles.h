@@ -68,14 +68,19 @@ inline Eigen::Map<Vector> view(N_Vector v) {
   return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(length)};
 }
 
-// The parts q and v of the integrators' state y = (q, v).
-inline auto positions(N_Vector y) {
+// The parts q, v and z of the integrators' state y = (q, v, z) with `internals` internal variables z.
+inline auto positions(N_Vector y, Eigen::Index internals = 0) {
   auto all = view(y);
-  return Eigen::Map<Vector>(all.data(), all.size() / 2);
+  return Eigen::Map<Vector>(all.data(), (all.size() - internals) / 2);
 }
-inline auto velocities(N_Vector y) {
+inline auto velocities(N_Vector y, Eigen::Index internals = 0) {
   auto all = view(y);
-  return Eigen::Map<Vector>(all.data() + all.size() / 2, all.size() / 2);
+  const Eigen::Index n = (all.size() - internals) / 2;
+  return Eigen::Map<Vector>(all.data() + n, n);
+}
+inline auto internal_part(N_Vector y, Eigen::Index internals) {
+  auto all = view(y);
+  return Eigen::Map<Vector>(all.data() + (all.size() - internals), internals);
 }
 
 }  // namespace orthodyn::sundials

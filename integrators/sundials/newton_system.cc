@@ -12,16 +12,25 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
       statistics_(statistics),
       callbacks_(callbacks),
       momentum_(model.num_dofs()) {
+  if (model.internal_variables()) {
+    if (options.is_full())
+      throw ConfigError("linear_solver: klu_full is not available with viscoelastic materials; use klu or auto");
+    internal_.emplace(model);
+    internals_ = internal_->internal().size();
+  }
   if (options.is_full()) full_.emplace(model);
-  else reduced_.emplace(model, options.linear_solver, options.tangent(), statistics);
+  else
+    reduced_.emplace(internal_ ? static_cast<const Model&>(*internal_) : model, options.linear_solver,
+                     options.tangent(), statistics);
   if (reduced_) reduced_->set_newton_tolerance(0);
 }
 
 void NewtonSystem::create_first_order(SUNContext context, std::function<double()> gamma) {
   if (full_) return create_full(context);
   create_reduced(context, std::move(gamma), [this](N_Vector x, N_Vector b) {
-    model_.multiply_mass(velocities(b), momentum_);
-    reduced_->solve(positions(b), momentum_, positions(x), velocities(x));
+    model_.multiply_mass(velocities(b, internals_), momentum_);
+    positions(x, internals_) = positions(b, internals_);
+    solve_reduced(x, b, 1);
   });
 }
 
@@ -30,18 +39,19 @@ void NewtonSystem::create_residual(SUNContext context) {
   create_reduced(
       context, [this] { return gamma_; },
       [this](N_Vector x, N_Vector b) {
-        momentum_ = gamma_ * velocities(b);
-        positions(x) = gamma_ * positions(b);
-        reduced_->solve(positions(x), momentum_, positions(x), velocities(x));
+        momentum_ = gamma_ * velocities(b, internals_);
+        positions(x, internals_) = gamma_ * positions(b, internals_);
+        solve_reduced(x, b, gamma_);
       });
 }
 
 void NewtonSystem::create_reduced(SUNContext context, std::function<double()> gamma,
                                   std::function<void(N_Vector, N_Vector)> solve) {
   matrix_ = make_placeholder_matrix(context);
-  functions_.setup = [this, gamma = std::move(gamma)] {
+  library_gamma_ = std::move(gamma);
+  functions_.setup = [this] {
     bool factored = false;
-    const int thrown = guarded(callbacks_, [&] { factored = reduced_->factor(gamma()); });
+    const int thrown = guarded(callbacks_, [&] { factored = reduced_->factor(library_gamma_()); });
     return thrown ? thrown : factored ? 0 : 1;
   };
   functions_.iterative = reduced_->is_iterative();
@@ -51,6 +61,32 @@ void NewtonSystem::create_reduced(SUNContext context, std::function<double()> ga
     return guarded(callbacks_, [&] { solve(x, b); });
   };
   solver_ = make_solver_adapter(functions_, context);
+}
+
+void NewtonSystem::solve_reduced(N_Vector x, N_Vector b, double scale) {
+  auto dq = positions(x, internals_), dv = velocities(x, internals_);
+  if (!internal_) return reduced_->solve(dq, momentum_, dq, dv);
+  const double gamma = reduced_->gamma();
+  const InternalVariables& internal = internal_->internal();
+  const Vector& tau = internal.relaxation_times();
+  w_ = scale * internal_part(b, internals_).array() * tau.array() / (tau.array() + gamma);
+  work_.resize(momentum_.size());
+  internal.force_change(t_, q_, w_, work_);
+  momentum_ += gamma * work_;
+  reduced_->solve(dq, momentum_, dq, dv);
+  auto dz = internal_part(x, internals_);
+  internal.strain_change(t_, q_, dq, dz);
+  dz = w_.array() + gamma / (tau.array() + gamma) * dz.array();
+}
+
+void NewtonSystem::linearize_reduced(double t, N_Vector y, double gamma) {
+  if (internal_) {
+    z_ = internal_part(y, internals_);
+    internal_->set(z_.data(), gamma);
+    t_ = t;
+    q_ = positions(y, internals_);
+  }
+  reduced_->linearize(t, positions(y, internals_), velocities(y, internals_));
 }
 
 void NewtonSystem::create_full(SUNContext context) {
@@ -68,9 +104,10 @@ void NewtonSystem::create_full(SUNContext context) {
 }
 
 int NewtonSystem::linearize(double t, N_Vector y, bool keep, sunbooleantype* renewed) {
-  *renewed = !keep;
+  const bool is_kept = keep && !internal_;  // K of internal variables depends on gamma
+  *renewed = !is_kept;
   return guarded(callbacks_, [&] {
-    if (!keep) reduced_->linearize(t, positions(y), velocities(y));
+    if (!is_kept) linearize_reduced(t, y, library_gamma_());
   });
 }
 
@@ -88,7 +125,7 @@ int NewtonSystem::linearize_residual(double t, double cj, N_Vector y, SUNMatrix 
       full_->fill_ida(cj, linearization_, J);
     } else {
       gamma_ = 1 / cj;
-      reduced_->linearize(t, positions(y), velocities(y));
+      linearize_reduced(t, y, gamma_);
     }
   });
 }

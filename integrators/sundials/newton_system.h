@@ -3,6 +3,10 @@
 //   first order, y' = (v, M^-1 f):           (I - gamma J) x = b,          CVODE and ARKODE; gamma in s
 //   residual, F = (q' - v, M v' - f) = 0:    (dF/dy + cj dF/dy') x = b,    IDA; gamma = 1/cj
 //
+// Internal variables z (lib/ode/internal_variables.h) are eliminated: with w = r_z / (1 + gamma / tau) for the
+// right-hand side r_z of their rows, strains e and the force's derivative G by z,
+//     dz = w + gamma / (tau + gamma) de/dq dq,   p contains gamma G w,   K contains -G gamma / (tau + gamma) de/dq.
+//
 // `linear_solver: klu_full` factors the 2n x 2n matrix by SUNDIALS' KLU (full_jacobian.h). All other solvers factor one
 // n x n matrix (reduced_solve.h).
 #pragma once
@@ -16,6 +20,7 @@
 #include "integrators/sundials/full_jacobian.h"
 #include "integrators/sundials/solver_adapter.h"
 #include "integrators/sundials/sundials_options.h"
+#include "lib/ode/internal_model.h"
 
 namespace orthodyn::sundials {
 
@@ -53,6 +58,10 @@ class NewtonSystem {
 
  private:
   void create_reduced(SUNContext context, std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)>);
+  // Computes K and D for the reduced solve at y. `gamma`: of the next factorisation, s.
+  void linearize_reduced(double t, N_Vector y, double gamma);
+  // Solves for x = (dq, dv, dz), with momentum_ = p without G w, and r_q in x; `scale` times the part z of b is r_z.
+  void solve_reduced(N_Vector x, N_Vector b, double scale);
   void create_full(SUNContext context);
   void linearize_full(double t, N_Vector y);
 
@@ -63,6 +72,11 @@ class NewtonSystem {
   CallbackContext& callbacks_;
   Vector momentum_;
   double gamma_ = 0;  // residual form: 1/cj of the last set-up, s
+  std::function<double()> library_gamma_;
+  std::optional<GivenInternalModel> internal_;  // only for models with internal variables
+  Eigen::Index internals_ = 0;                  // number of internal variables
+  double t_ = 0;                                // s, with q_ and z_: at which internal variables were linearised
+  Vector q_, z_, w_, work_;
   std::optional<ReducedSolve> reduced_;
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // used only by klu_full

@@ -14,6 +14,10 @@ namespace {
 
 const bool version_registered = library_versions().emplace("SUNDIALS", library_version()).second;
 
+std::optional<GivenInternalModel> internal_model(const Model& model) {
+  return model.internal_variables() ? std::optional<GivenInternalModel>(std::in_place, model) : std::nullopt;
+}
+
 }  // namespace
 
 SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& library, const Model& model,
@@ -22,6 +26,7 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& lib
       options_(options),
       scales_(scales),
       decisions_(scale_decisions(scales)),
+      internal_(internal_model(model)),
       y_(make_vector(size(), context_, model.ranks())),
       name_(std::move(name)),
       library_(library) {
@@ -41,12 +46,28 @@ void SundialsIntegrator::check_mass_for_full_jacobian() const {
 
 void SundialsIntegrator::set_error_weights() {
   require(library_.set_user_data(memory(), this));
-  require(library_.set_error_weights(memory(), [](N_Vector, N_Vector weights, void* user) {
-    const auto& me = *static_cast<SundialsIntegrator*>(user);
-    positions(weights).setConstant(1 / (me.options_.rtol * me.scales_.position));
-    velocities(weights).setConstant(1 / (me.options_.rtol * me.scales_.velocity));
+  require(library_.set_error_weights(memory(), [](N_Vector y, N_Vector weights, void* user) {
+    static_cast<SundialsIntegrator*>(user)->set_weights(y, weights);
     return 0;
   }));
+}
+
+void SundialsIntegrator::set_weights(N_Vector y, N_Vector weights) {
+  const Eigen::Index m = internals();
+  double of_motion = 1;  // SUNDIALS divides the sum of all squares by their number
+  if (m > 0) {
+    // A strain far below the largest one so far does not matter; at first, neither does one far below that of a motion
+    // of the size of the position scale.
+    constexpr double kLeastShare = 1e-2;
+    const auto z = internal_part(y, m);
+    largest_strain_ = std::max({largest_strain_, z.norm() / std::sqrt(static_cast<double>(m)),
+                                kLeastShare * internal_->internal().strain_of(scales_.position)});
+    const auto all = static_cast<double>(size());
+    of_motion = std::sqrt(all / static_cast<double>(size() - m));
+    internal_part(weights, m).setConstant(std::sqrt(all / static_cast<double>(m)) / (options_.rtol * largest_strain_));
+  }
+  positions(weights, m).setConstant(of_motion / (options_.rtol * scales_.position));
+  velocities(weights, m).setConstant(of_motion / (options_.rtol * scales_.velocity));
 }
 
 void SundialsIntegrator::set_step_limits() {
@@ -89,8 +110,9 @@ void SundialsIntegrator::restart_renewal() {
 }
 
 void SundialsIntegrator::start(const State& state) {
-  positions(y()) = state.q;
-  velocities(y()) = state.v;
+  positions(y(), internals()) = state.q;
+  velocities(y(), internals()) = state.v;
+  if (internal_) internal_part(y(), internals()) = state.z;
   t_ = state.t;
   if (started_) {
     const Counters now = counters();
@@ -137,8 +159,9 @@ void SundialsIntegrator::interpolate(double t, State& out) const {
   if (dense_output(t, dense.get()) < 0)
     throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, callback_context_.message));
   out.t = t;
-  out.q = positions(dense.get());
-  out.v = velocities(dense.get());
+  out.q = positions(dense.get(), internals());
+  out.v = velocities(dense.get(), internals());
+  out.z = internal_part(dense.get(), internals());
 }
 
 std::size_t SundialsIntegrator::bytes() const {
@@ -227,16 +250,33 @@ std::string SundialsIntegrator::iteration_failure() const {
 int SundialsIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {
   return guarded(callback_context_, [&] {
     const Measure measure(statistics_.force);
-    model.force(t, positions(y), velocities(y), a);
+    with_internals(model, y).force(t, positions(y, internals()), velocities(y, internals()), a);
     require_finite(model, a);
     model.solve_mass(a);
+  });
+}
+
+const Model& SundialsIntegrator::with_internals(const Model& model, N_Vector y) {
+  if (!internal_) return model;
+  internal_->set(internal_part(y, internals()).data());
+  return *internal_;
+}
+
+int SundialsIntegrator::evaluate_internal_rates(double t, N_Vector y, N_Vector y_dot) {
+  if (!internal_) return 0;
+  return guarded(callback_context_, [&] {
+    const Measure measure(statistics_.force);
+    const Eigen::Index m = internals();
+    auto rates = internal_part(y_dot, m);
+    internal_->internal().strains(t, positions(y, m), rates);
+    rates = (rates - internal_part(y, m)).cwiseQuotient(internal_->internal().relaxation_times());
   });
 }
 
 void SundialsIntegrator::initial_acceleration(const Model& model, double t, VectorRef a) {
   try {
     const Measure measure(statistics_.force);
-    model.force(t, positions(y()), velocities(y()), a);
+    with_internals(model, y()).force(t, positions(y(), internals()), velocities(y(), internals()), a);
     require_finite(model, a);
   } catch (const RecoverableError& e) {
     throw initial_force_error(name_, t, e.what());

@@ -1,10 +1,13 @@
-// Base class of the integrators that call SUNDIALS, with the state y = (q, v). It contains what CVODE, IDA and ARKODE
+// Base class of the integrators that call SUNDIALS, with the state y = (q, v, z); z are the internal variables of the
+// model (lib/ode/internal_variables.h), which most models lack. It contains what CVODE, IDA and ARKODE
 // share: state, error weights, Newton's linear systems, counters and failure messages. One derived class per library
 // makes the calls that differ.
 //
 // Error test: the local error e of y is accepted if the root mean square of w_i e_i is at most 1. The inverse weight
 // 1/w_i is rtol times the position scale for positions and rtol times the velocity scale for velocities. Tolerances
-// relative to the positions themselves would depend on the frame of reference.
+// relative to the positions themselves would depend on the frame of reference. For internal variables, 1/w_i is rtol
+// times the largest root mean square of z so far, and the mean of their squares is added to that of positions and
+// velocities.
 #pragma once
 
 #include <functional>
@@ -14,6 +17,7 @@
 #include "integrators/renewal_policy.h"
 #include "integrators/sundials/newton_system.h"
 #include "integrators/sundials/nonsmooth_newton.h"
+#include "lib/ode/internal_model.h"
 
 namespace orthodyn::sundials {
 
@@ -114,7 +118,13 @@ class SundialsIntegrator : public Integrator {
   // Computes a = M^-1 f (m/s^2) at the initial state y(). Throws RunError if the force cannot be evaluated.
   void initial_acceleration(const Model& model, double t, VectorRef a);
 
-  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()); }
+  // Sets the rates (e - z) / tau of the internal variables in y_dot, if the model has any. As evaluate_acceleration().
+  int evaluate_internal_rates(double t, N_Vector y, N_Vector y_dot);
+
+  Eigen::Index internals() const { return internal_ ? internal_->internal().size() : 0; }
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()) + internals(); }
+  // The model with the internal variables of y; `model` itself if it has none.
+  const Model& with_internals(const Model& model, N_Vector y);
   N_Vector y() const { return y_.get(); }
 
   const Model& model_;
@@ -123,7 +133,8 @@ class SundialsIntegrator : public Integrator {
   Decisions decisions_;  // values chosen for keys that the input left open, except linear_solver
   Statistics statistics_;
   CallbackContext callback_context_;
-  Context context_;  // declared before everything created in it
+  std::optional<GivenInternalModel> internal_;  // only for models with internal variables
+  Context context_;                             // declared before everything created in it
   OwnedVector y_;
   std::optional<NonsmoothNewton> nonsmooth_newton_;
   std::optional<NewtonSystem> newton_system_;  // only if implicit
@@ -147,6 +158,9 @@ class SundialsIntegrator : public Integrator {
   Counters before_;                       // sums until the last restart of the library
   double t_ = 0;
   bool started_ = false;
+  double largest_strain_ = 0;  // unit of the error of internal variables
+
+  void set_weights(N_Vector y, N_Vector weights);
 };
 
 }  // namespace orthodyn::sundials

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/ode/internal_variables.h"
 
 namespace orthodyn {
 
@@ -45,6 +47,7 @@ FrequencyResponse::FrequencyResponse(const Model& model, const State& about, con
   mass_ = values_of(model, {1, 0, 0}, at);
   viscous_ = values_of(model, {0, 1, 0}, at);
   if (std::all_of(viscous_.begin(), viscous_.end(), [](double d) { return d == 0; })) viscous_.clear();
+  if (model.internal_variables()) find_branches(about);
   lambda_.resize(std::ssize(modes.modes));
   zeros_ = modes.zeros;
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -56,6 +59,33 @@ FrequencyResponse::FrequencyResponse(const Model& model, const State& about, con
   if (lambda_.size() < model_.num_dofs()) extend_basis(range);  // otherwise the modes are a complete basis
   find_coupled(range.rtol);
 }
+
+// The stiffness without relaxation minus that with the relaxation of one time only.
+void FrequencyResponse::find_branches(const State& about) {
+  const InternalVariables& internal = *model_.internal_variables();
+  const Vector z = about.z.size() > 0 ? about.z : Vector::Zero(internal.size());
+  const auto stiffness = [&](InternalState::Kind kind, double time) {
+    Linearization at;
+    internal.assemble(about.t, about.q, Vector::Zero(about.q.size()), {kind, z.data(), time}, TangentKind::gauss_newton,
+                      at);
+    return values_of(model_, {0, 0, 1}, at);
+  };
+  const Values at_once = stiffness(InternalState::Kind::given, 0);
+  const Vector& times = internal.relaxation_times();
+  for (const double time : std::set<double>(times.begin(), times.end())) {
+    Branch branch{time, stiffness(InternalState::Kind::branch, time), {}};
+    for (std::size_t k = 0; k < at_once.size(); ++k) branch.stiffness[k] = at_once[k] - branch.stiffness[k];
+    branches_.push_back(std::move(branch));
+  }
+}
+
+std::complex<double> FrequencyResponse::relaxing(double omega, Eigen::Index j, Eigen::Index k) const {
+  Complex sum = 0;
+  for (const Branch& branch : branches_) sum += branch.factor(omega) * branch.reduced(j, k);
+  return sum;
+}
+
+double FrequencyResponse::frequency(int mode) const { return omega_[mode] / kTwoPi; }
 
 Vector FrequencyResponse::product(const Values& values, const Vector& x) const {
   Vector y = Vector::Zero(x.size());
@@ -72,18 +102,24 @@ ComplexVector FrequencyResponse::product(const Values& values, const ComplexVect
 
 void FrequencyResponse::set_loss_factors() {
   loss_factors_ = Vector::Zero(lambda_.size());
+  omega_ = lambda_.cwiseMax(0).cwiseSqrt();
+  // The stiffness rises with the frequency, which rises with the stiffness: to round-off after few passes.
+  for (Eigen::Index k = zeros_; k < lambda_.size() && !branches_.empty(); ++k)
+    for (int pass = 0; pass < 100; ++pass) omega_[k] = std::sqrt(lambda_[k] + relaxing(omega_[k], k, k).real());
   const auto damping = [&](Eigen::Index j, Eigen::Index k) {
-    return reduced_loss_(j, k) + std::sqrt(std::sqrt(lambda_[j] * lambda_[k])) * reduced_viscous_(j, k);
+    const double omega = std::sqrt(omega_[j] * omega_[k]);
+    return reduced_loss_(j, k) + omega * reduced_viscous_(j, k) + relaxing(omega, j, k).imag();
   };
+  const auto squared = [&](Eigen::Index k) { return branches_.empty() ? lambda_[k] : omega_[k] * omega_[k]; };
   constexpr double kClose = 10;  // distance of eigenvalues, relative to their damping, up to which modes mix
   for (Eigen::Index begin = zeros_, end; begin < lambda_.size(); begin = end) {
     for (end = begin + 1; end < lambda_.size(); ++end)
-      if (lambda_[end] - lambda_[end - 1] > kClose * (damping(end, end) + damping(end - 1, end - 1))) break;
+      if (std::abs(squared(end) - squared(end - 1)) > kClose * (damping(end, end) + damping(end - 1, end - 1))) break;
     const Eigen::Index size = end - begin;
     Eigen::MatrixXcd close(size, size);
     for (Eigen::Index j = 0; j < size; ++j)
       for (Eigen::Index k = 0; k < size; ++k)
-        close(j, k) = Complex(j == k ? lambda_[begin + j] : 0, damping(begin + j, begin + k));
+        close(j, k) = Complex(j == k ? squared(begin + j) : 0, damping(begin + j, begin + k));
     ComplexVector eigenvalues = close.diagonal();
     if (size > 1) eigenvalues = Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(close, false).eigenvalues();
     std::sort(eigenvalues.begin(), eigenvalues.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
@@ -137,6 +173,12 @@ bool FrequencyResponse::add(Vector direction) {
   if (size < zeros_) loss.setZero();
   extend(reduced_loss_, loss);
   extend(reduced_viscous_, basis_.transpose() * product(viscous_, Vector(basis_.col(size))));
+  for (Branch& branch : branches_) {
+    Vector column = basis_.transpose() * product(branch.stiffness, Vector(basis_.col(size)));
+    column.head(std::min(zeros_, size + 1)).setZero();
+    if (size < zeros_) column.setZero();
+    extend(branch.reduced, column);
+  }
   if (size < modes) reduced_viscous_(size, size) += 2 * ratio_ * std::sqrt(lambda_[size]);
   reduced_load_.conservativeResize(size + 1);
   reduced_load_[size] = Complex(basis_.col(size).dot(load_.real()), basis_.col(size).dot(load_.imag()));
@@ -171,14 +213,16 @@ void FrequencyResponse::include(const ComplexVector& load, const VibrationRange&
 ComplexVector FrequencyResponse::coordinates(double frequency, const ComplexVector& reduced_load) const {
   const double omega = kTwoPi * frequency;
   const auto entry = [&](Eigen::Index j, Eigen::Index k) {
-    return Complex(reduced_stiffness_(j, k) - (j == k ? omega * omega : 0),
-                   reduced_loss_(j, k) + omega * reduced_viscous_(j, k));
+    const Complex own(reduced_stiffness_(j, k) - (j == k ? omega * omega : 0),
+                      reduced_loss_(j, k) + omega * reduced_viscous_(j, k));
+    return own + relaxing(omega, j, k);
   };
   ComplexVector y(basis_.cols());
   if (alone_.empty() && coupled_.empty()) {  // before find_coupled()
     Eigen::MatrixXcd A(basis_.cols(), basis_.cols());
     A.real() = reduced_stiffness_;
     A.imag() = reduced_loss_ + omega * reduced_viscous_;
+    for (const Branch& branch : branches_) A += branch.factor(omega) * branch.reduced;
     A.diagonal().array() -= omega * omega;
     return A.partialPivLu().solve(reduced_load);
   }
@@ -207,7 +251,9 @@ void FrequencyResponse::find_coupled(double tolerance) {
   for (Eigen::Index k = 0; k < basis_.cols(); ++k) {
     bool is_alone = k < lambda_.size();
     for (Eigen::Index j = 0; j < basis_.cols() && is_alone; ++j)
-      is_alone = j == k || (is_small(reduced_loss_, j, k) && is_small(reduced_viscous_, j, k));
+      is_alone = j == k || (is_small(reduced_loss_, j, k) && is_small(reduced_viscous_, j, k) &&
+                            std::all_of(branches_.begin(), branches_.end(),
+                                        [&](const Branch& b) { return is_small(b.reduced, j, k); }));
     (is_alone ? alone_ : coupled_).push_back(k);
   }
 }
@@ -225,8 +271,9 @@ ComplexVector FrequencyResponse::residual(double omega, const ComplexVector& y) 
   };
   ComplexVector r = load_ - combined(mass_times_basis_, by_mass);
   r -= product(stiffness_, combined(basis_.rightCols(added), y.tail(added)));
-  if (loss_.empty() && viscous_.empty()) return r;
+  if (loss_.empty() && viscous_.empty() && branches_.empty()) return r;
   const ComplexVector x = combined(basis_, y);
+  for (const Branch& branch : branches_) r -= branch.factor(omega) * product(branch.stiffness, x);
   r -= Complex(0, 1) * (product(loss_, x) + omega * product(viscous_, x));
   return r;
 }

@@ -1,9 +1,10 @@
 // The steady vibration of a model about a state under loads F cos(omega t), with small amplitudes:
 //
-//   (K + i H + i omega D - omega^2 M) x = F,   displacement = Re(x exp(i omega t)).
+//   (K + i H + i omega D - omega^2 M + sum_tau i omega tau / (1 + i omega tau) K_tau) x = F,
 //
-// K, D and M are the model's matrices at the state, H is the loss of the materials (hysteretic damping), and a damping
-// ratio adds 2 zeta omega_k to the damping of each mode.
+// displacement = Re(x exp(i omega t)). K, D and M are the model's matrices at the state, H is the loss of the materials
+// (hysteretic damping), and a damping ratio adds 2 zeta omega_k to the damping of each mode. K is the relaxed stiffness
+// of viscoelastic materials, and K_tau the stiffness that relaxes with the time tau (lib/ode/internal_variables.h).
 //
 // The equation is projected onto a small real basis, with all its damping. The basis has the natural modes up to 1.5
 // times the highest frequency and the static response to F, for a free body without the part that moves it rigidly. As
@@ -64,6 +65,10 @@ class FrequencyResponse {
   // phi_k^T F of a mode.
   std::complex<double> modal_load(int mode) const { return reduced_load_[mode]; }
 
+  // Natural frequency of a mode (Hz) with the stiffness at this frequency, which for viscoelastic materials is above
+  // the relaxed one.
+  double frequency(int mode) const;
+
   // Loss factor of a mode at its natural frequency: twice its damping ratio. 0 for a rigid mode. Modes whose
   // frequencies are closer than their damping have the loss factors of the damped modes among them.
   double loss_factor(int mode) const { return loss_factors_[mode]; }
@@ -89,9 +94,24 @@ class FrequencyResponse {
   void find_coupled(double tolerance);
 
   const Model& model_;
+  // The stiffness that relaxes with one time, and its products with the basis.
+  struct Branch {
+    double time;  // s
+    Values stiffness;
+    Eigen::MatrixXd reduced;
+    std::complex<double> factor(double omega) const {
+      const std::complex<double> x(0, omega * time);
+      return x / (1.0 + x);
+    }
+  };
+  void find_branches(const State& about);
+  std::complex<double> relaxing(double omega, Eigen::Index j, Eigen::Index k) const;
+
   Values stiffness_, mass_, viscous_, loss_;
-  Vector lambda_;           // of the modes, 1/s^2
-  Eigen::Index zeros_ = 0;  // number of zero modes
+  std::vector<Branch> branches_;  // only with viscoelastic materials
+  Vector omega_;                  // of the modes with the stiffness at their frequencies, rad/s
+  Vector lambda_;                 // of the modes, 1/s^2
+  Eigen::Index zeros_ = 0;        // number of zero modes
   double ratio_;
   ComplexVector load_;
   std::unique_ptr<LinearSolver> solver_;  // of K + s M

@@ -13,7 +13,9 @@ using Mat3T = Eigen::Matrix<T, 3, 3>;
 
 using Vec3 = Vec3T<double>;
 using Mat3 = Mat3T<double>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
+template <class T>
+using Vec6T = Eigen::Matrix<T, 6, 1>;
+using Vec6 = Vec6T<double>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vector = Eigen::VectorXd;
 using VectorRef = Eigen::Ref<Vector>;

@@ -31,7 +31,7 @@ T contract(const Mat3T<T>& A, const Mat3T<T>& B) {
 
 // The Voigt form of a symmetric strain, with engineering shear (stiffness.h).
 template <class T>
-Eigen::Matrix<T, 6, 1> voigt_strain(const Mat3T<T>& e) {
+Vec6T<T> voigt_strain(const Mat3T<T>& e) {
   return {e(0, 0), e(1, 1), e(2, 2), T(2) * e(0, 1), T(2) * e(1, 2), T(2) * e(2, 0)};
 }
 

@@ -29,7 +29,8 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, con
 
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
   parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic, parts_.subdomain.get());
-  if (parts_.subdomain) return;
+  internal_ = make_internal_variables(parts_);
+  if (parts_.subdomain || internal_) return;
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
   const bool pulled = supports_pull(parts_);  // the pull is a force without energy
   if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
@@ -188,11 +189,15 @@ Vector FemModel::whole_of(const Vector& part) const {
   return all;
 }
 
-State FemModel::whole(const State& state) const { return {state.t, whole_of(state.q), whole_of(state.v)}; }
+State FemModel::whole(const State& state) const {
+  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z};
+}
 
 Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Vector(all(parts_.unknowns)) : all; }
 
-State FemModel::part(const State& whole) const { return {whole.t, part_of(whole.q), part_of(whole.v)}; }
+State FemModel::part(const State& whole) const {
+  return {whole.t, part_of(whole.q), part_of(whole.v), whole.load_factor, whole.z};
+}
 
 // Rotations are about the mean node position and scaled by the body's size, so that all columns have similar norms.
 Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {

@@ -79,6 +79,7 @@ class FemModel : public Model {
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
   std::optional<std::vector<std::string>> load_parts() const override;
   const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
+  const InternalVariables* internal_variables() const override { return internal_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override;
 
@@ -106,6 +107,7 @@ class FemModel : public Model {
                           Linearization& out) const override;
 
   Parts parts_;
+  std::unique_ptr<const InternalVariables> internal_;   // null without viscoelastic materials
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null if a force has no energy, or with several ranks
 };
 
@@ -113,10 +115,11 @@ class FemModel : public Model {
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v,
                  double load_factor = 1);
-  NodalState state() const { return {t, x, u, u_rate, load_factor}; }
+  NodalState state() const { return {t, x, u, u_rate, load_factor, internal}; }
   double time;  // of the state, s
   double t;     // at which loads are evaluated, s
   double load_factor;
+  const InternalState* internal = nullptr;  // as in NodalState
   NodalVector u, u_rate, x;
 };
 
@@ -154,6 +157,10 @@ double largest_quotient(const FemModel::Parts& parts, Vector row_sums);
 // nodes. v: free velocities (m/s).
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
                  const NodalVector& forces, VectorRef out);
+
+// The internal variables of the model; null if no material has any. `parts` must outlive the result. Sets the numbers
+// of the terms' first variables.
+std::unique_ptr<const InternalVariables> make_internal_variables(FemModel::Parts& parts);
 
 // The discrete gradient of the model: the sum of Term::add_mean_force() and of the damping at mid-step. `parts` must
 // outlive the result. mean_force() is thread-safe, and throws RecoverableError if a corotational element is inverted or

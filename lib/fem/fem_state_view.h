@@ -16,7 +16,11 @@ class FemStateView : public StateView {
  public:
   // `parts` must outlive this object.
   FemStateView(const FemModel::Parts& parts, const State& state)
-      : parts_(parts), nodal_(parts, state.t, state.q, state.v, state.load_factor) {}
+      : parts_(parts), z_(state.z), nodal_(parts, state.t, state.q, state.v, state.load_factor) {
+    if (z_.size() > 0) nodal_.internal = &internal_;
+  }
+  FemStateView(const FemStateView&) = delete;  // internal_ refers to z_
+  FemStateView& operator=(const FemStateView&) = delete;
 
   std::vector<double> evaluate(const std::string& name) const override;
   std::vector<double> evaluate_at(const std::string& name, int node, int components) const override;
@@ -48,6 +52,8 @@ class FemStateView : public StateView {
   const Vector& free_momentum() const;
 
   const FemModel::Parts& parts_;
+  Vector z_;  // internal variables
+  InternalState internal_{InternalState::Kind::given, z_.data(), 0};
   NodalExpansion nodal_;
   mutable std::optional<double> kinetic_energy_;
   mutable std::optional<Vector> free_momentum_;

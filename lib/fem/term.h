@@ -8,6 +8,7 @@
 #include "lib/core/types.h"
 #include "lib/fem/dof_map.h"
 #include "lib/fem/subdomain.h"
+#include "lib/ode/internal_variables.h"
 #include "lib/ode/step_limits.h"
 
 namespace orthodyn {
@@ -15,11 +16,12 @@ namespace orthodyn {
 // Positions, displacements and velocities of all nodes, clamped ones included. Compute quantities that vanish at rest
 // from u, not from x - X, which loses the digits of small displacements.
 struct NodalState {
-  double t;                // s
-  const NodalVector& x;    // positions, m: rest positions X plus u
-  const NodalVector& u;    // m
-  const NodalVector& v;    // m/s
-  double load_factor = 1;  // of statics: energies and stresses are those of the load times this factor
+  double t;                                 // s
+  const NodalVector& x;                     // positions, m: rest positions X plus u
+  const NodalVector& u;                     // m
+  const NodalVector& v;                     // m/s
+  double load_factor = 1;                   // of statics: energies and stresses are those of the load times this factor
+  const InternalState* internal = nullptr;  // null: internal variables at equilibrium
 };
 
 enum class EnergyKind { none, elastic, gravitational };

@@ -70,7 +70,7 @@ class Anisotropic : public Material {
           {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
     s.key("expansion", &A::expansion_, kExpansionSentence);
-    s.key("fibres", &A::fibres_, kFibresSentence);
+    s.key("fibres", &A::fibres_, kFibresSentence).key("viscoelastic", &A::viscoelasticity_, kViscoelasticSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
       s.key(e.name, e.value,

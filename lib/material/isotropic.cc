@@ -15,7 +15,8 @@ class Isotropic : public Material {
             .key("nu", &Isotropic::nu_, "Poisson's ratio.", {.required = true, .range = {-1, 0.5, true, true}})
             .key("strength", &Isotropic::uniform_, "Strengths, for the fields max_stress, tsai_wu and hashin.")
             .key("expansion", &Isotropic::expansion_of_all_, kExpansionSentence)
-            .key("fibres", &Isotropic::fibres_, kFibresSentence);
+            .key("fibres", &Isotropic::fibres_, kFibresSentence)
+            .key("viscoelastic", &Isotropic::viscoelasticity_, kViscoelasticSentence);
     return s;
   }
 

@@ -25,7 +25,7 @@ std::string why_inadmissible(const Material& material) {
   if (const double smallest = symmetric_eigenvalues(unit).minCoeff(); !(smallest > 0))
     return fmt::format("its stiffness is not positive definite: the smallest eigenvalue is {:.4g} Pa",
                        symmetric_eigenvalues(C).minCoeff());
-  return "";
+  return why_inadmissible(material.viscoelasticity(), material.stiffness());
 }
 
 }  // namespace orthodyn

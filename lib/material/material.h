@@ -12,6 +12,7 @@
 #include "lib/material/fibres/fibres.h"
 #include "lib/material/stiffness.h"
 #include "lib/material/strength.h"
+#include "lib/material/viscoelasticity.h"
 
 namespace orthodyn {
 
@@ -29,6 +30,9 @@ class Material {
   // Empty if the material has no fibres besides its elasticity.
   const std::optional<Fibres>& fibres() const { return fibres_; }
 
+  // Empty if the stiffness does not relax.
+  const Viscoelasticity& viscoelasticity() const { return viscoelasticity_; }
+
   // Changes made to the given constants, one sentence each.
   virtual std::vector<std::string> notes() const { return {}; }
 
@@ -37,6 +41,7 @@ class Material {
   std::optional<Strength> strength_;
   std::optional<Expansion> expansion_;
   std::optional<Fibres> fibres_;
+  Viscoelasticity viscoelasticity_;
 };
 
 inline constexpr const char* kStrengthSentence =

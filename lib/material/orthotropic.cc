@@ -50,6 +50,7 @@ class Orthotropic : public Material {
             .key("strength", &O::strength_, kStrengthSentence)
             .key("expansion", &O::expansion_, kExpansionSentence)
             .key("fibres", &O::fibres_, kFibresSentence)
+            .key("viscoelastic", &O::viscoelasticity_, kViscoelasticSentence)
             .key("symmetrise", &O::symmetrise_,
                  "For measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
             .key("repair", &O::repair_,

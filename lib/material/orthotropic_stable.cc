@@ -24,6 +24,7 @@ class OrthotropicStable : public Material {
             .key("strength", &O::strength_, kStrengthSentence)
             .key("expansion", &O::expansion_, kExpansionSentence)
             .key("fibres", &O::fibres_, kFibresSentence)
+            .key("viscoelastic", &O::viscoelasticity_, kViscoelasticSentence)
             .check([](const O& o, const Config& config) {
               if (!is_stable(o.constants())) config.fail(explain_instability(o.constants()));
             });

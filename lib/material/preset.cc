@@ -22,6 +22,7 @@ class PresetMaterial : public Material {
             .key("expansion", &P::expansion_,
                  std::string(kExpansionSentence) + " Default: the shrinkage of the preset, if it has any.")
             .key("fibres", &P::fibres_, kFibresSentence)
+            .key("viscoelastic", &P::viscoelasticity_, kViscoelasticSentence)
             .check([](const P& p, const Config& config) {
               const auto& preset = p.preset();
               if (!p.own_density_ && !preset.density)

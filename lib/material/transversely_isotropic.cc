@@ -35,6 +35,7 @@ class TransverselyIsotropic : public Material {
             .key("strength", &M::strength_, kStrengthSentence)
             .key("expansion", &M::expansion_, kExpansionSentence)
             .key("fibres", &M::fibres_, kFibresSentence)
+            .key("viscoelastic", &M::viscoelasticity_, kViscoelasticSentence)
             .key("repair", &M::repair_,
                  "Treatment of constants that make the material unstable. none: refuse them. shrink: multiply both "
                  "ratios by the largest factor that makes it stable, with a warning.")

@@ -107,6 +107,10 @@ inline MethodFacts method_facts(const std::string& order, const std::string& sta
   return {{"order", order}, {"stability", stability}, {"conserves", conserves}, {"source", source}};
 }
 
+// How a method integrates internal variables (internal_variables.h): not at all, as unknowns of its own, or only with
+// fixed steps, by internal_history.h.
+enum class InternalSupport { none, own, fixed_steps };
+
 // The options of one integrator, read from the input. make() makes the integrator for a model. Implementations derive
 // from SettableChoice (settable_choice.h).
 class IntegratorChoice {
@@ -130,8 +134,13 @@ class IntegratorChoice {
   // True if the method integrates Task::sensitivities.
   virtual bool computes_sensitivities() const { return false; }
 
+  virtual InternalSupport internal_support() const { return InternalSupport::none; }
+
   // Throws ConfigError if the integrator does not accept the model. The model must outlive the integrator.
-  virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const;
+
+ private:
+  virtual std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const = 0;
 };
 
 }  // namespace orthodyn

@@ -74,6 +74,8 @@ class DiscreteGradient {
                           const ConstVectorRef& v, VectorRef f) const = 0;
 };
 
+class InternalVariables;  // lib/ode/internal_variables.h
+
 class Model : public OutputSource {
  public:
   // The number n of unknowns of this rank.
@@ -90,6 +92,10 @@ class Model : public OutputSource {
 
   // Computes f(t, q, v), N. Throws RecoverableError if f cannot be evaluated; a smaller step may help.
   virtual void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const = 0;
+
+  // The model's internal variables, which live as long as the model; null if there are none. The force and the
+  // tangents of this interface are those of internal variables at equilibrium.
+  virtual const InternalVariables* internal_variables() const { return nullptr; }
 
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;

@@ -17,6 +17,7 @@ struct State {
   double t = 0;            // s
   Vector q, v;             // generalised positions and velocities
   double load_factor = 1;  // factor on the loads (Model::load_parts())
+  Vector z = {};           // internal variables (internal_variables.h); empty: at equilibrium
 };
 
 enum class Location { node, cell, global };

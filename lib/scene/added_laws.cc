@@ -6,6 +6,7 @@
 
 #include "lib/fem/added_laws/neo_hookean.h"
 #include "lib/fem/added_laws/swelling.h"
+#include "lib/fem/added_laws/viscoelastic.h"
 #include "lib/scene/fibre_laws.h"
 #include "lib/scene/scene.h"
 
@@ -36,6 +37,9 @@ void check_neo_hookean(const Scene& scene, const Region& region) {
       region.origin.fail(fmt::format("law: neo_hookean needs isotropic materials, and '{}' is not isotropic", name));
     if (!causes(scene, material).empty())
       region.origin.fail("law: neo_hookean cannot be combined with an expansion by moisture or temperature");
+    if (is_viscoelastic(material))
+      region.origin.fail(
+          fmt::format("law: neo_hookean cannot be combined with viscoelastic materials such as '{}'", name));
   }
   if (region.formulation == Formulation::mixed)
     region.origin.fail("formulation: mixed is not available with law: neo_hookean");
@@ -45,6 +49,8 @@ void check_neo_hookean(const Scene& scene, const Region& region) {
 }
 
 }  // namespace
+
+bool is_viscoelastic(const Material& material) { return !material.viscoelasticity().empty(); }
 
 bool swells(const Scene& scene, const Material& material) { return !causes(scene, material).empty(); }
 
@@ -59,6 +65,8 @@ std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, cons
         {cause.name, *cause.coefficients,
          cause.change->at_points(*part.type, mesh, cells, part.cells, scene.time.start, scene.time.end)});
   if (!swellings.empty()) laws.push_back(make_swelling(stiffness, kinematics, std::move(swellings)));
+  if (const Viscoelasticity& branches = part.material->viscoelasticity(); !branches.empty())
+    laws.push_back(make_viscoelastic(stiffness, kinematics, branches));
   return laws;
 }
 
@@ -74,6 +82,10 @@ void declare_added_laws(const Scene& scene, const std::vector<const Region*>& re
   for (const Region* region : regions)
     for (const std::string& material : region->materials()) {
       declare_fibres(scene, material_named(scene, material), traits);
+      if (is_viscoelastic(material_named(scene, material))) {
+        traits.dissipative = true;
+        traits.conservative = false;
+      }
       for (const Cause& cause : causes(scene, material_named(scene, material)))
         if (!cause.change->constant()) {
           traits.time_dependent = traits.loaded = true;
@@ -86,6 +98,13 @@ void check_added_laws(const Config& config, const Scene& scene) {
   for (const auto& [name, region] : scene.regions)
     if (region.law == ElasticLaw::neo_hookean) check_neo_hookean(scene, region);
   check_fibres(config, scene);
+  if (scene.elasticity.corotation == Corotation::warped)
+    for (const auto& [name, material] : scene.materials)
+      if (is_viscoelastic(*material))
+        config.at("elasticity")
+            .fail(fmt::format(
+                "corotation: warped is not available with viscoelastic materials such as '{}'; remove one of them",
+                name));
   const auto check = [&](const char* name, const std::optional<StateChange>& change, auto&& coefficients) {
     if (!change) return;
     const bool is_used = std::any_of(scene.materials.begin(), scene.materials.end(), [&](const auto& entry) {

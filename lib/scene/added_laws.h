@@ -25,6 +25,8 @@ std::unique_ptr<const AddedLaw> replacing_law(const Scene& scene, const ElasticP
 // Whether moisture or temperature makes the material swell.
 bool swells(const Scene& scene, const Material& material);
 
+bool is_viscoelastic(const Material& material);
+
 // Sets the traits that the added laws of the regions' materials change.
 void declare_added_laws(const Scene& scene, const std::vector<const Region*>& regions, Traits& traits);
 

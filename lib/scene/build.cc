@@ -79,6 +79,14 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   return traits;
 }
 
+void require_no_internal_variables(const Scene& scene, const std::vector<const Region*>& regions) {
+  for (const Region* region : regions)
+    for (const std::string& material : region->materials())
+      if (is_viscoelastic(material_named(scene, material)))
+        region->origin.fail(
+            fmt::format("the viscoelastic material '{}' is not available on several ranks; run on one", material));
+}
+
 NodePairs couplings(const Scene& scene, const Mesh& mesh) {
   NodePairs all;
   for (const TermChoice* term : scene.force_terms())
@@ -226,6 +234,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
+  if (subdomain) require_no_internal_variables(scene, regions);
   auto added = add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
   for (auto& term : added) {

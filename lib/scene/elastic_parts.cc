@@ -83,8 +83,9 @@ bool is_mixed(const Scene& scene, const Region& region, const Material& material
                                    ? fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural)
                                : elasticity_of(scene, region).is_warped() ? "with elasticity.corotation: warped"
                                : region.law == ElasticLaw::neo_hookean    ? "with law: neo_hookean"
-                               : swells(scene, material) ? "for a material that swells by moisture or temperature"
-                                                         : "";
+                               : swells(scene, material)   ? "for a material that swells by moisture or temperature"
+                               : is_viscoelastic(material) ? "for a viscoelastic material"
+                                                           : "";
   if (region.formulation == Formulation::mixed && !obstacle.empty())
     region.origin.fail("formulation: mixed is not available " + obstacle);
   return obstacle.empty() &&

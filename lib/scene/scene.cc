@@ -250,6 +250,8 @@ bool may_be_damped(const Scene& scene) {
   return harmonic.damping_ratio > 0 || !harmonic.losses.empty() || scene.damping.has_value() ||
          std::any_of(scene.regions.begin(), scene.regions.end(),
                      [](const auto& region) { return region.second.stiffness_damping.has_value(); }) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const auto& entry) { return is_viscoelastic(*entry.second); }) ||
          std::any_of(scene.terms.begin(), scene.terms.end(),
                      [](const auto& term) { return term->factor_in_time() == nullptr; });
 }

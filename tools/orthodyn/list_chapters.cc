@@ -69,6 +69,11 @@ void list_presets() {
     fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
                reverse(c.nu12, 0, 1), reverse(c.nu23, 1, 2), reverse(c.nu13, 0, 2));
     if (p.strength) print_strength(*p.strength);
+    if (p.expansion && p.expansion->moisture) {
+      const Vec3 shrinkage = 100 * *p.expansion->moisture;
+      fmt::print("    expansion along 1, 2, 3: {:.3g}, {:.3g}, {:.3g} % per per cent of moisture\n", shrinkage[0],
+                 shrinkage[1], shrinkage[2]);
+    }
   }
 }
 

@@ -129,6 +129,10 @@ int compute_modes(const ModesArguments& arguments) {
     fmt::print(stderr,
                "warning: a load that follows the body makes the stiffness unsymmetric; modes use its symmetric part "
                "and do not show flutter. Run a motion (analysis: dynamic) to see it\n");
+  if (analysis.model().internal_variables())
+    fmt::print(stderr,
+               "warning: the frequencies are those of the relaxed stiffness of viscoelastic materials; for resonances, "
+               "whose stiffness depends on the frequency, use analysis: harmonic\n");
   fmt::print("results {}\n", folder.string());
   if (modes.zeros >= arguments.count)
     fmt::print("no shapes to draw: all {} modes {}; compute more with -n\n", modes.zeros,

@@ -40,7 +40,8 @@ std::string shown_steps(const RunCost& cost) {
   return fmt::format("{:.0f} to {:.0f}, adaptive: {}{}", cost.steps.least, cost.steps.most,
                      cost.has_contact
                          ? "small during contact with the ground; the number of contacts is not known in advance"
-                         : "accurate to an order of magnitude",
+                     : cost.may_creep ? "few if the loads start no vibration, as with slow loads and relaxation"
+                                      : "accurate to an order of magnitude",
                      early);
 }
 

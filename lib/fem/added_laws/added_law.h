@@ -12,6 +12,7 @@
 
 #include "lib/element/batch.h"
 #include "lib/element/tangent_form.h"
+#include "lib/ode/internal_variables.h"
 #include "lib/ode/model.h"
 #include "lib/ode/step_limits.h"
 
@@ -50,6 +51,25 @@ class AddedLawAt {
   virtual Mat3T<Batch> turned_stress(const LawPoint& at) const = 0;
 };
 
+// The internal variables of the points of a law (lib/ode/internal_variables.h), all points of an element after each
+// other: six strains for each relaxation time.
+struct PointInternals {
+  InternalState state;
+  Eigen::Index first = 0;  // of the law's variables among those of the model
+  int elements = 0;
+};
+
+// A law with internal variables.
+class InternalLaw {
+ public:
+  virtual ~InternalLaw() = default;
+  virtual std::vector<double> relaxation_times() const = 0;  // s
+  virtual std::shared_ptr<const AddedLawAt> at(const PointInternals& internals, int points_of_element) const = 0;
+  // The strain to which all variables of a point tend, and its derivative for a change dH Q of H Q.
+  virtual Vec6T<Batch> strain(const LawPoint& at) const = 0;
+  virtual Vec6T<Batch> strain_change(const LawPoint& at, const Mat3T<Batch>& dH) const = 0;
+};
+
 class AddedLaw {
  public:
   virtual ~AddedLaw() = default;
@@ -71,6 +91,9 @@ class AddedLaw {
 
   virtual bool has_energy() const = 0;
   virtual bool depends_on_rate() const { return false; }
+  virtual bool dissipates() const { return depends_on_rate(); }
+  // This law's internal variables; null if it has none. at() is then not called.
+  virtual const InternalLaw* internal() const { return nullptr; }
   virtual bool depends_on_time() const = 0;
   // Whether the force does not depend on the displacements.
   virtual bool is_dead() const = 0;

@@ -22,6 +22,16 @@ class AddedTerm : public Term {
   virtual bool scales_with_stiffness() const = 0;     // AddedLaw::scales_with_stiffness()
   virtual double volume(int k, int point) const = 0;  // m^3, at rest
 
+  // Internal variables of the term, for all its points (InternalVariables); none by default. `first`: index of the
+  // first among those of the model. Vectors are those of the model.
+  virtual Eigen::Index num_internal() const = 0;
+  virtual void set_first_internal(Eigen::Index first) = 0;
+  virtual void get_relaxation_times(Vector& times) const = 0;
+  virtual void get_strains(const NodalState& s, VectorRef strains) const = 0;
+  virtual void get_strain_change(const NodalState& s, const NodalVector& du, VectorRef change) const = 0;
+  // Adds the change of the force for a change of the internal variables.
+  virtual void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const = 0;
+
   // This term with corotational kinematics; the arguments are those of ElementType::added_term().
   virtual std::unique_ptr<AddedTerm> corotational(const ElementMesh& mesh, const BlockPattern& pattern) const = 0;
 };

@@ -37,7 +37,7 @@ class AddedTermOf final : public AddedTerm {
   bool is_load() const override { return law_->is_load(); }
   bool is_dead() const override { return law_->is_dead(); }
 
-  void add_force(const NodalState& s, NodalVector& f) const override { add_force_of(*law_->at(s.t), s, f); }
+  void add_force(const NodalState& s, NodalVector& f) const override { add_force_of(*law_at(s), s, f); }
   // Nothing for laws that are no loads.
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override {
     if (is_load()) add_force_of(*law_->at_peak(s.t, end), s, f);
@@ -59,7 +59,7 @@ class AddedTermOf final : public AddedTerm {
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
     if (is_dead()) return;
-    const auto law = law_->at(s.t);
+    const auto law = law_at(s);
     double* const damping = law_->depends_on_rate() ? D : nullptr;
     loops_.for_each_batch([&](int b) {
       const BatchState state(*this, b, s);
@@ -96,7 +96,7 @@ class AddedTermOf final : public AddedTerm {
     return integral(s, [](const AddedLawAt& law, const PointState& at, auto&&) { return law.energy(at.point()); });
   }
   double dissipation(const NodalState& s) const override {
-    if (!law_->depends_on_rate()) return 0;
+    if (!law_->dissipates()) return 0;
     return integral(s, [](const AddedLawAt& law, const PointState& at, auto&& rate) {
       return law.dissipation(at.point(), rate());
     });
@@ -110,11 +110,11 @@ class AddedTermOf final : public AddedTerm {
   StepLimits step_limits(double start, double end) const override { return law_->step_limits(start, end); }
 
   void visit_stresses(const NodalState& s, const VisitStress& visit) const override {
-    const auto law = law_->at(s.t, s.load_factor);
+    const auto law = law_at(s, s.load_factor);
     loops_.for_each_batch([&](int b) { visit_batch(b, *law, s, visit); });
   }
   void visit_stresses_of(int k, const NodalState& s, const VisitStress& visit) const override {
-    visit_batch(k / Batch::kLanes, *law_->at(s.t, s.load_factor), s,
+    visit_batch(k / Batch::kLanes, *law_at(s, s.load_factor), s,
                 [&](int other, int p, const Mat3& cauchy, const Mat3& turned) {
                   if (other == k) visit(k, p, cauchy, turned);
                 });
@@ -122,6 +122,31 @@ class AddedTermOf final : public AddedTerm {
   std::string law() const override { return law_->name(); }
   bool scales_with_stiffness() const override { return law_->scales_with_stiffness(); }
   double volume(int k, int p) const override { return elements_.volume(k, p); }
+
+  Eigen::Index num_internal() const override {
+    return law_->internal() ? Eigen::Index{elements_.size()} * num_internal_of_element() : 0;
+  }
+  void set_first_internal(Eigen::Index first) override { first_internal_ = first; }
+  void get_relaxation_times(Vector& times) const override {
+    const std::vector<double> of_law = law_->internal()->relaxation_times();
+    loops_.for_each_batch([&](int b) {
+      for (int p = 0; p < elements_.num_points(); ++p)
+        for_each_internal(
+            b, p, [&](int, std::size_t branch, Eigen::Index i) { times.segment<6>(i).setConstant(of_law[branch]); });
+    });
+  }
+  void get_strains(const NodalState& s, VectorRef strains) const override {
+    for_each_strain(s, strains, [&](int, int, const PointState& at) { return law_->internal()->strain(at.point()); });
+  }
+  void get_strain_change(const NodalState& s, const NodalVector& du, VectorRef change) const override {
+    for_each_strain(s, change, [&](int b, int p, const PointState& at) {
+      return law_->internal()->strain_change(at.point(), elements_.gradients(b, p, elements_.differences(b, du)));
+    });
+  }
+  void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const override {
+    const InternalState state{InternalState::Kind::given, change.data(), 0};
+    add_force_of(*law_->internal()->at({state, first_internal_, elements_.size()}, elements_.num_points()), s, f);
+  }
 
   std::unique_ptr<AddedTerm> corotational(const ElementMesh& mesh, const BlockPattern& pattern) const override {
     return elastic_.type().added_term(mesh, elastic_, law_->corotational(), pattern);
@@ -158,6 +183,40 @@ class AddedTermOf final : public AddedTerm {
     std::optional<Columns> v_;
   };
 
+  std::shared_ptr<const AddedLawAt> law_at(const NodalState& s, double load_factor = 1) const {
+    const InternalLaw* internal = law_->internal();
+    if (!internal) return law_->at(s.t, load_factor);
+    return internal->at({s.internal ? *s.internal : InternalState{}, first_internal_, elements_.size()},
+                        elements_.num_points());
+  }
+
+  int num_internal_of_element() const {
+    return 6 * elements_.num_points() * static_cast<int>(law_->internal()->relaxation_times().size());
+  }
+  // Calls visit(lane, branch, i) for the first index i of the strains of each branch at point p of batch b.
+  template <class Visit>
+  void for_each_internal(int b, int p, Visit&& visit) const {
+    const Eigen::Index branches = num_internal_of_element() / (6 * elements_.num_points());
+    for (int l = 0; l < elements_.lanes(b); ++l) {
+      const Eigen::Index point = (b * Batch::kLanes + l) * elements_.num_points() + p;
+      for (Eigen::Index branch = 0; branch < branches; ++branch)
+        visit(l, static_cast<std::size_t>(branch), first_internal_ + 6 * (point * branches + branch));
+    }
+  }
+  // Sets the entries of all branches to strain(b, p, state of the point).
+  template <class Strain>
+  void for_each_strain(const NodalState& s, VectorRef out, Strain&& strain) const {
+    loops_.for_each_batch([&](int b) {
+      const BatchState state(*this, b, s);
+      for (int p = 0; p < elements_.num_points(); ++p) {
+        const Vec6T<Batch> e = strain(b, p, state.at(p));
+        for_each_internal(b, p, [&](int lane, std::size_t, Eigen::Index i) {
+          for (int k = 0; k < 6; ++k) out[i + k] = e[k][lane];
+        });
+      }
+    });
+  }
+
   const ElasticRegion& region() const { return elastic_.definition(); }
   std::size_t index(int b, int p) const { return static_cast<std::size_t>(b * elements_.num_points() + p); }
   Mat3T<Batch> axes(int b, int p) const { return region().axes.batch(b, p); }
@@ -183,7 +242,7 @@ class AddedTermOf final : public AddedTerm {
   // Volume integral of density(law, at, rate); rate() is dF/dt Q.
   template <class Density>
   double integral(const NodalState& s, Density&& density) const {
-    const auto law = law_->at(s.t, s.load_factor);
+    const auto law = law_at(s, s.load_factor);
     return loops_.sum([&](int b) {
       const BatchState state(*this, b, s);
       const Columns v = elements_.differences(b, s.v);
@@ -215,6 +274,7 @@ class AddedTermOf final : public AddedTerm {
   ElementBatches<E> elements_;
   ElementAssembly<E> assembly_;
   BatchLoops loops_;
+  Eigen::Index first_internal_ = 0;
 };
 
 }  // namespace orthodyn

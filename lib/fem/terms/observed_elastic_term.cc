@@ -25,16 +25,16 @@ PointObservation ObservedElasticTerm::own(PointObservation observation) const {
 }
 
 PointObservation ObservedElasticTerm::observe(int k, const NodalState& s) const {
-  PointObservation out = own(elastic_->observe(k, s));
-  for (const AddedTerm* term : observed()) {
-    Mat3 sum = Mat3::Zero();
-    double volume = 0;
-    term->visit_stresses_of(k, s, [&](int, int p, const Mat3& cauchy, const Mat3&) {
-      sum += term->volume(k, p) * cauchy;
-      volume += term->volume(k, p);
-    });
-    out.cauchy += sum / volume;
+  PointObservation out = elastic_->observe(k, s);
+  const AddedTerm& any = *observed().front();
+  const std::vector<PointObservation> points = observe_element(k, s);
+  double volume = 0;
+  out.cauchy.setZero();
+  for (int p = 0; p < num_points(); ++p) {
+    out.cauchy += any.volume(k, p) * points[static_cast<std::size_t>(p)].cauchy;
+    volume += any.volume(k, p);
   }
+  out.cauchy /= volume;
   return out;
 }
 

@@ -55,7 +55,7 @@ class ObservedElasticTerm final : public ElasticTerm {
   SmallestDetF smallest_det_F(const NodalState& s) const override { return elastic_->smallest_det_F(s); }
   double max_frequency_squared(double density) const override { return elastic_->max_frequency_squared(density); }
 
-  // With the stresses of the added terms; observe() has their mean over the element's volume.
+  // With the stresses of the added terms; observe() has the mean stress over the element's volume.
   PointObservation observe(int k, const NodalState& s) const override;
   PointObservation observe_point(int k, int p, const NodalState& s) const override;
   std::vector<PointObservation> observe_element(int k, const NodalState& s) const override;

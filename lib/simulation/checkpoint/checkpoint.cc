@@ -19,7 +19,7 @@ namespace {
 using SortedJson = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 6;
+constexpr int kVersion = 7;
 constexpr const char* kCheckpointMark = "orthodyn checkpoint ";
 constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // bytes: CBOR header, mark, version, space, fingerprint
 
@@ -70,6 +70,7 @@ SortedJson to_json(const Checkpoint& c) {
           {"t", c.state.t},
           {"q", numbers(c.state.q)},
           {"v", numbers(c.state.v)},
+          {"z", numbers(c.state.z)},
           {"last_output", c.last_output},
           {"last_history", c.last_history},
           {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
@@ -84,7 +85,7 @@ Checkpoint from_json(const SortedJson& json) {
   c.mesh = json.at("mesh");
   c.files = json.at("files").get<std::map<std::string, std::string>>();
   c.begun = json.at("begun");
-  c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
+  c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v")), 1, vector(json.at("z"))};
   c.last_output = json.at("last_output");
   c.last_history = json.at("last_history");
   const auto& rhythm = json.at("rhythm");

@@ -55,7 +55,7 @@ HarmonicResponse::HarmonicResponse(const Setup& setup) : setup_(setup), model_(*
   modes_ = find_modes();
   response_.emplace(reduced_system());
   for (std::size_t k = 0; k < modes_.modes.size(); ++k)
-    resonances_.push_back({modes_.modes[k].frequency(), response_->loss_factor(static_cast<int>(k))});
+    resonances_.push_back({response_->frequency(static_cast<int>(k)), response_->loss_factor(static_cast<int>(k))});
   require_damping();
   frequencies_ = frequency_grid(harmonic, resonances_);
   set_basis(columns_, setup.scene, model_, about_, response_->basis());

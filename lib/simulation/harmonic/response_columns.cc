@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "lib/core/spelling.h"
 #include "lib/fem/fem_model.h"
 #include "lib/mesh/selection.h"
+#include "lib/ode/internal_variables.h"
 #include "lib/scene/quantity.h"
 
 namespace orthodyn {
@@ -49,7 +51,11 @@ double largest_displacement(const Vector& q) { return q.size() > 0 ? q.lpNorm<Ei
 
 std::complex<double> ResponseColumn::amplitude(double frequency, const ComplexVector& coordinates) const {
   const std::complex<double> rate(0, 2 * std::numbers::pi * frequency);
-  const std::complex<double> relative(of_basis.dot(coordinates.real()), of_basis.dot(coordinates.imag()));
+  const auto times = [&](const Vector& values) {
+    return std::complex<double>(values.dot(coordinates.real()), values.dot(coordinates.imag()));
+  };
+  std::complex<double> relative = times(of_basis);
+  for (const Relaxing& part : relaxing) relative += rate * part.time / (1.0 + rate * part.time) * times(part.of_basis);
   return std::pow(rate, time_derivative) * relative + base * std::pow(rate, time_derivative - 2);
 }
 
@@ -86,30 +92,65 @@ std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::s
   return static_cast<std::size_t>(found - names.begin());
 }
 
+namespace {
+
+// Values of all columns, in their order.
+Vector values_at(const Scene& scene, const FemModel& model, const std::vector<PlacedGauge>& gauges,
+                 const State& state) {
+  const ObservedState observed(model, state);
+  std::vector<double> out;
+  for (const auto& [probe, entry] : scene.output.probes)
+    for (const auto& field : entry.fields) {
+      const OutputInfo info = output_of(model, field, entry.origin);
+      const auto values = observed.evaluate_at(info.name, nearest_node(model.parts().mesh, entry.at), info.components);
+      out.insert(out.end(), values.begin(), values.end());
+    }
+  for (const PlacedGauge& gauge : gauges)
+    for (const double value : gauge.values(observed)) out.push_back(value);
+  return Eigen::Map<const Vector>(out.data(), std::ssize(out));
+}
+
+// The state `at`, with internal variables at equilibrium except those that relax with this time, which are those of
+// `about`.
+State unrelaxed(const InternalVariables& internal, State at, const State& about, double time) {
+  Vector before(internal.size());
+  internal.strains(about.t, about.q, before);
+  at.z.resize(internal.size());
+  internal.strains(at.t, at.q, at.z);
+  at.z = (internal.relaxation_times().array() == time).select(before, at.z);
+  return at;
+}
+
+}  // namespace
+
 void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const FemModel& model, const State& about,
                const Eigen::MatrixXd& basis) {
   constexpr double kStep = 1e-5;  // displacement of the differences, relative to the smallest extent of the body
   const double size = bounding_box(model.parts().mesh).size().minCoeff();
   std::vector<PlacedGauge> gauges;
   for (const auto& [name, gauge] : scene.output.gauges) gauges.emplace_back(gauge, model.parts().mesh);
-  for (ResponseColumn& column : columns) column.of_basis = Vector::Zero(basis.cols());
+  const InternalVariables* internal = model.internal_variables();
+  std::set<double> times;
+  if (internal) times.insert(internal->relaxation_times().begin(), internal->relaxation_times().end());
+  for (ResponseColumn& column : columns) {
+    column.of_basis = Vector::Zero(basis.cols());
+    for (const double time : times) column.relaxing.push_back({time, column.of_basis});
+  }
   for (Eigen::Index k = 0; k < basis.cols(); ++k) {
     const double step = kStep * size / largest_displacement(basis.col(k));
     const State after{about.t, about.q + step * basis.col(k), about.v},
         before{about.t, about.q - step * basis.col(k), about.v};
-    const ObservedState ahead(model, after), behind(model, before);
-    std::size_t column = 0;
-    for (const auto& [probe, entry] : scene.output.probes)
-      for (const auto& field : entry.fields) {
-        const OutputInfo info = output_of(model, field, entry.origin);
-        const int node = nearest_node(model.parts().mesh, entry.at);
-        const auto high = ahead.evaluate_at(info.name, node, info.components);
-        const auto low = behind.evaluate_at(info.name, node, info.components);
-        for (std::size_t c = 0; c < high.size(); ++c) columns[column++].of_basis[k] = (high[c] - low[c]) / (2 * step);
-      }
-    for (const PlacedGauge& gauge : gauges) {
-      const auto high = gauge.values(ahead), low = gauge.values(behind);
-      for (std::size_t c = 0; c < high.size(); ++c) columns[column++].of_basis[k] = (high[c] - low[c]) / (2 * step);
+    const auto change = [&](const State& high, const State& low) -> Vector {
+      return (values_at(scene, model, gauges, high) - values_at(scene, model, gauges, low)) / (2 * step);
+    };
+    const Vector relaxed = change(after, before);
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].of_basis[k] = relaxed[static_cast<Eigen::Index>(c)];
+    for (std::size_t i = 0; const double time : times) {
+      const Vector all =
+          change(unrelaxed(*internal, after, about, time), unrelaxed(*internal, before, about, time)) - relaxed;
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        columns[c].relaxing[i].of_basis[k] = all[static_cast<Eigen::Index>(c)];
+      ++i;
     }
   }
 }

@@ -19,7 +19,12 @@ struct ResponseColumn {
   int time_derivative;   // 0, 1 or 2, of the vibration
   bool is_motion;        // displacement, velocity or acceleration
   double base = 0;       // the same component of the base's acceleration, m/s^2; 0 unless the field is a motion
-  Vector of_basis = {};  // values of the vectors of the basis
+  Vector of_basis = {};  // values of the vectors of the basis; with viscoelastic materials, relaxed
+  struct Relaxing {
+    double time;      // s
+    Vector of_basis;  // the part of the values that relaxes with this time
+  };
+  std::vector<Relaxing> relaxing = {};
 
   // Complex amplitude at a frequency (Hz) of a vibration with these coordinates in the basis.
   std::complex<double> amplitude(double frequency, const ComplexVector& coordinates) const;
@@ -34,7 +39,8 @@ std::vector<ResponseColumn> response_columns(const Scene& scene, const FemModel&
 std::size_t find_column(const std::vector<ResponseColumn>& columns, const std::string& quantity,
                         const SourceLocation& origin);
 
-// Sets `of_basis` of the columns. Strains, lengths and stresses are differences of second order about the state.
+// Sets `of_basis` and `relaxing` of the columns. Strains, lengths and stresses are differences of second order about
+// the state.
 void set_basis(std::vector<ResponseColumn>& columns, const Scene& scene, const FemModel& model, const State& about,
                const Eigen::MatrixXd& basis);
 

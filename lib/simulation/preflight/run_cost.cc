@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lib/fem/terms/added_term.h"
 #include "lib/linear/solver.h"
 #include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/preflight/output_size.h"
@@ -20,6 +21,7 @@ constexpr double kLargestFactor = 2e9;  // bytes; a larger factorisation takes o
 // Adaptive implicit methods, measured on configs/: Newton iterations and tangents (with factorisation) per step, and
 // steps per radian of the motion at rtol 1e-3.
 constexpr double kIterations = 4, kFewestTangents = 0.05, kMaxTangents = 1, kSteps = 7;
+constexpr double kStepsOfCreep = 50;    // without vibrations
 constexpr double kSpread = 5;           // uncertainty of the number of steps, as a factor
 constexpr double kScaleOfMotion = 0.1;  // position scale over the amplitude of the motion
 constexpr double kUsualSafety = 0.9;
@@ -60,6 +62,15 @@ void measure_factor(const Setup& setup, RunCost& cost) {
 bool has_contact(const FemModel& model) {
   const auto& loads = model.parts().loads;
   return std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->contact_stiffness() > 0; });
+}
+
+// Bodies that relax or swell often move far more slowly than they vibrate.
+bool may_creep(const FemModel& model) {
+  const auto& loads = model.parts().loads;
+  const bool swells = std::any_of(loads.begin(), loads.end(), [](const auto& term) {
+    return term->is_load() && dynamic_cast<const AddedTerm*>(term.get());
+  });
+  return model.internal_variables() || (swells && model.traits().time_dependent);
 }
 
 bool may_end_early(const Scene& scene) {
@@ -110,7 +121,8 @@ CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
     return std::round(x / unit) * unit;
   };
   const double fewest = settings.h_max ? span / *settings.h_max : 1;
-  const double least = cost.may_end_early ? std::min(about.least, kStepsBeforeEvent) : std::max(about.least, fewest);
+  double least = cost.may_end_early ? std::min(about.least, kStepsBeforeEvent) : std::max(about.least, fewest);
+  if (cost.may_creep) least = std::max(std::min(least, kStepsOfCreep), fewest);
   return {two_digits(least), two_digits(std::max(about.most, fewest))};
 }
 
@@ -215,6 +227,7 @@ void add_time_steps(const Setup& setup, bool is_implicit, RunCost& cost) {
     cost.step = {each + fewest * anew, each + kMaxTangents * anew};
   }
   cost.has_contact = is_implicit && has_contact(model);
+  cost.may_creep = is_implicit && may_creep(model);
   cost.steps = steps_of(setup, is_implicit, cost);
 }
 

@@ -52,19 +52,21 @@ void warn(Warnings& out, const std::string& place, fmt::format_string<Arguments.
 }
 
 // Each check appends its warnings to `out`. The comments name the file.
-void check_material(const CheckContext& context, Warnings& out);   // materials.cc
-void check_place(const CheckContext& context, Warnings& out);      // places.cc: lengths, points and directions
-void check_load(const CheckContext& context, Warnings& out);       // loads.cc
-void check_time(const CheckContext& context, Warnings& out);       // times.cc
-void check_motion(const CheckContext& context, Warnings& out);     // motions.cc: initial and prescribed motions
-void check_damping(const CheckContext& context, Warnings& out);    // damping.cc
-void check_freedom(const CheckContext& context, Warnings& out);    // freedom.cc: bodies without supports
-void check_hourglass(const CheckContext& context, Warnings& out);  // hourglass.cc
-void check_layers(const CheckContext& context, Warnings& out);     // layers.cc: plies that share a cell
-void check_locking(const CheckContext& context, Warnings& out);    // locking.cc
-void check_turning(const CheckContext& context, Warnings& out);    // turning.cc: free rotation
-void check_event(const CheckContext& context, Warnings& out);      // events.cc
-void check_setting(const CheckContext& context, Warnings& out);    // settings.cc: keys of the integrator
+void check_material(const CheckContext& context, Warnings& out);    // materials.cc
+void check_change(const CheckContext& context, Warnings& out);      // changes.cc: of moisture and temperature
+void check_place(const CheckContext& context, Warnings& out);       // places.cc: lengths, points and directions
+void check_load(const CheckContext& context, Warnings& out);        // loads.cc
+void check_time(const CheckContext& context, Warnings& out);        // times.cc
+void check_motion(const CheckContext& context, Warnings& out);      // motions.cc: initial and prescribed motions
+void check_damping(const CheckContext& context, Warnings& out);     // damping.cc
+void check_freedom(const CheckContext& context, Warnings& out);     // freedom.cc: bodies without supports
+void check_hourglass(const CheckContext& context, Warnings& out);   // hourglass.cc
+void check_layers(const CheckContext& context, Warnings& out);      // layers.cc: plies that share a cell
+void check_locking(const CheckContext& context, Warnings& out);     // locking.cc
+void check_relaxation(const CheckContext& context, Warnings& out);  // relaxation.cc: viscoelastic materials
+void check_turning(const CheckContext& context, Warnings& out);     // turning.cc: free rotation
+void check_event(const CheckContext& context, Warnings& out);       // events.cc
+void check_setting(const CheckContext& context, Warnings& out);     // settings.cc: keys of the integrator
 
 // The value at a path such as "integrator.rtol"; empty if absent or null.
 std::optional<Config> find_value(const Config& config, const std::vector<std::string>& path);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lib/core/errors.h"
+#include "lib/ode/internal_variables.h"
 #include "lib/simulation/error_estimate/mass_norm.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
 
@@ -63,6 +64,8 @@ void check_fixed_step(const Config& config, const FemModel& model, const StaticR
   const auto value = find_value(config, {"integrator", "step"});
   if (!value || value->text() == "auto") return;
   const double step = read_number(*value, {.unit = "s"});
+  const InternalVariables* internal = model.internal_variables();
+  if (internal && internal->relaxation_times().maxCoeff() > step) return;  // the steps may be those of a slow creep
   // Frequency (rad/s) of the vibration that the loads start, by the Rayleigh quotient of the static response.
   const double omega = std::sqrt(statics.work / mass_product(model, statics.displacement));
   const double period = 2 * std::numbers::pi / omega;

@@ -19,6 +19,7 @@ constexpr double kFewest = 0.01, kMax = 1e6;  // cycles of a sine
 // True if the body only vibrates, which does not justify a long run: it does not creep, and loads and supports do not
 // change late.
 bool only_swings(const CheckContext& context) {
+  if (context.built.model->internal_variables()) return false;
   const double omega = context.lowest_bending_frequency();
   if (const auto& damping = context.scene.damping)
     if (damping->mass / omega + damping->stiffness * omega > 2) return false;

@@ -1,0 +1,24 @@
+#include "lib/ode/integrator.h"
+
+#include "lib/ode/internal_history.h"
+
+namespace orthodyn {
+
+std::unique_ptr<Integrator> IntegratorChoice::make(const Model& model, const Task& task) const {
+  if (!model.internal_variables()) return make_for(model, task);
+  if (task.sensitivities)
+    throw ConfigError("sensitivities of motions are not available with viscoelastic materials; remove one of them");
+  switch (internal_support()) {
+    case InternalSupport::own: return make_for(model, task);
+    case InternalSupport::fixed_steps:
+      return std::make_unique<InternalHistory>(model, [&](const Model& own) { return make_for(own, task); });
+    default:
+      throw ConfigError(
+          "this method is not available with viscoelastic materials; use cvode_bdf, ida_bdf, arkode_dirk, arkode_erk "
+          "or auto, or a fixed step "
+          "with newmark, hht_alpha, generalized_alpha, backward_euler, bathe, tr_bdf2, semi_implicit_euler or "
+          "central_differences");
+  }
+}
+
+}  // namespace orthodyn
