@@ -25,9 +25,9 @@ struct RunCost {
   CostRange steps;                   // equal limits if the number is known
   bool fixed_steps = false;          // step size given in the input
   bool has_contact = false, may_end_early = false;  // adaptive steps with contact; an event may end the run
-  bool may_creep = false;  // adaptive steps, which become long if loads and relaxation are slower than vibrations
-  double row = 0, frame = 0;                        // time to compute one table row, one frame, s
-  CostRange rows;                                   // number of rows; one per step if unknown
+  bool may_creep = false;     // adaptive steps, which become long if loads and relaxation are slower than vibrations
+  double row = 0, frame = 0;  // time to compute one table row, one frame, s
+  CostRange rows;             // number of rows; one per step if unknown
   double frames = 0;
   CostRange outputs() const { return {rows.least * row + frames * frame, rows.most * row + frames * frame}; }
   CostRange seconds() const {

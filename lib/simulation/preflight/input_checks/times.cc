@@ -36,7 +36,7 @@ void check_span(const CheckContext& context, Warnings& out) {
          "in {:.3g} s a wave goes through {:.2g} of the body's length: almost nothing moves. Is the end, {:.4g} s, in "
          "another unit, such as ms?",
          context.span(), crossings, context.end());
-  if (crossings > kLongest)
+  if (crossings > kLongest && !context.built.model->internal_variables())
     warn(out, place, "in {:.3g} s a wave goes through the body {:.2g} times: is the end, {:.4g} s, in ms?",
          context.span(), crossings, context.end());
   const double periods = context.span() * context.lowest_bending_frequency() / (2 * std::numbers::pi);
