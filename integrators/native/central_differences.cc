@@ -234,7 +234,6 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
                         "Newmark 1959 (beta = 0); Verlet 1967; Hughes 1987, 9.1");
   }
   bool runs_on_ranks() const override { return true; }
-  InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<CentralDifferences>(model, task, *this);
   }

@@ -112,7 +112,7 @@ void SundialsIntegrator::restart_renewal() {
 void SundialsIntegrator::start(const State& state) {
   positions(y(), internals()) = state.q;
   velocities(y(), internals()) = state.v;
-  if (internal_) internal_part(y(), internals()) = state.z;
+  if (internal_) internal_part(y(), internals()) = internals_of(internal_->internal(), state.t, state.q, state.z);
   t_ = state.t;
   if (started_) {
     const Counters now = counters();

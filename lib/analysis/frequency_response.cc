@@ -63,10 +63,9 @@ FrequencyResponse::FrequencyResponse(const Model& model, const State& about, con
 // The stiffness without relaxation minus that with the relaxation of one time only.
 void FrequencyResponse::find_branches(const State& about) {
   const InternalVariables& internal = *model_.internal_variables();
-  const Vector z = about.z.size() > 0 ? about.z : Vector::Zero(internal.size());
   const auto stiffness = [&](InternalState::Kind kind, double time) {
     Linearization at;
-    internal.assemble(about.t, about.q, Vector::Zero(about.q.size()), {kind, z.data(), time}, TangentKind::gauss_newton,
+    internal.assemble(about.t, about.q, Vector::Zero(about.q.size()), {kind, nullptr, time}, TangentKind::gauss_newton,
                       at);
     return values_of(model_, {0, 0, 1}, at);
   };
@@ -83,6 +82,15 @@ std::complex<double> FrequencyResponse::relaxing(double omega, Eigen::Index j, E
   Complex sum = 0;
   for (const Branch& branch : branches_) sum += branch.factor(omega) * branch.reduced(j, k);
   return sum;
+}
+
+// The stiffness rises with the frequency, which rises with the stiffness: to round-off after few passes.
+double FrequencyResponse::frequency_of_mode(Eigen::Index k) const {
+  constexpr int kPasses = 100;
+  double omega = std::sqrt(std::max(lambda_[k], 0.0));
+  if (k < zeros_ || branches_.empty()) return omega;
+  for (int pass = 0; pass < kPasses; ++pass) omega = std::sqrt(lambda_[k] + relaxing(omega, k, k).real());
+  return omega;
 }
 
 double FrequencyResponse::frequency(int mode) const { return omega_[mode] / kTwoPi; }
@@ -102,10 +110,6 @@ ComplexVector FrequencyResponse::product(const Values& values, const ComplexVect
 
 void FrequencyResponse::set_loss_factors() {
   loss_factors_ = Vector::Zero(lambda_.size());
-  omega_ = lambda_.cwiseMax(0).cwiseSqrt();
-  // The stiffness rises with the frequency, which rises with the stiffness: to round-off after few passes.
-  for (Eigen::Index k = zeros_; k < lambda_.size() && !branches_.empty(); ++k)
-    for (int pass = 0; pass < 100; ++pass) omega_[k] = std::sqrt(lambda_[k] + relaxing(omega_[k], k, k).real());
   const auto damping = [&](Eigen::Index j, Eigen::Index k) {
     const double omega = std::sqrt(omega_[j] * omega_[k]);
     return reduced_loss_(j, k) + omega * reduced_viscous_(j, k) + relaxing(omega, j, k).imag();
@@ -179,7 +183,11 @@ bool FrequencyResponse::add(Vector direction) {
     if (size < zeros_) column.setZero();
     extend(branch.reduced, column);
   }
-  if (size < modes) reduced_viscous_(size, size) += 2 * ratio_ * std::sqrt(lambda_[size]);
+  if (size < modes) {
+    omega_.conservativeResize(size + 1);
+    omega_[size] = frequency_of_mode(size);
+    reduced_viscous_(size, size) += 2 * ratio_ * omega_[size];
+  }
   reduced_load_.conservativeResize(size + 1);
   reduced_load_[size] = Complex(basis_.col(size).dot(load_.real()), basis_.col(size).dot(load_.imag()));
   return true;
@@ -261,8 +269,7 @@ void FrequencyResponse::find_coupled(double tolerance) {
 ComplexVector FrequencyResponse::residual(double omega, const ComplexVector& y) const {
   const Eigen::Index modes = lambda_.size(), added = basis_.cols() - modes;
   ComplexVector by_mass = -omega * omega * y;  // factors of the vectors M v
-  for (Eigen::Index k = 0; k < modes; ++k)
-    by_mass[k] += Complex(lambda_[k], omega * 2 * ratio_ * std::sqrt(lambda_[k])) * y[k];
+  for (Eigen::Index k = 0; k < modes; ++k) by_mass[k] += Complex(lambda_[k], omega * 2 * ratio_ * omega_[k]) * y[k];
   const auto combined = [](const auto& vectors, const ComplexVector& factors) {
     ComplexVector out(vectors.rows());
     out.real() = vectors * factors.real();

@@ -105,6 +105,7 @@ class FrequencyResponse {
     }
   };
   void find_branches(const State& about);
+  double frequency_of_mode(Eigen::Index k) const;  // rad/s
   std::complex<double> relaxing(double omega, Eigen::Index j, Eigen::Index k) const;
 
   Values stiffness_, mass_, viscous_, loss_;

@@ -7,6 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/linear/solver.h"
+#include "lib/ode/internal_variables.h"
 
 namespace orthodyn {
 
@@ -36,12 +37,17 @@ Vector impulse(const FemModel& model, const State& initial, double end) {
 
 constexpr double kAccuracy = 1e-5;  // relative, in the energy norm; for iterative solvers
 
-// Factorises K at rest and stores its entries in `values`. Returns null if K is singular or nearly so, or if the factor
+// Factorises K at rest, with `duration` (s) that of viscoelastic materials after a strain that has grown for this time,
+// and stores its entries in `values`. Returns null if K is singular or nearly so, or if the factor
 // does not fit into memory, because runs that need no factor can go on.
-std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) try {
+std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values,
+                                                 std::optional<double> duration = {}) try {
   const Vector zero = Vector::Zero(model.num_dofs());
   Linearization at;
-  model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
+  if (const InternalVariables* internal = model.internal_variables(); internal && duration)
+    internal->assemble(0, zero, zero, {InternalState::Kind::history, nullptr, *duration}, TangentKind::gauss_newton,
+                       at);
+  else model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
   values.resize(at.stiffness.size());
   model.combine({0, 0, 1}, at, values.data());
   auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"}, model.pattern());
@@ -104,7 +110,8 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   const bool is_free = unknowns == 3 * static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
   if (space.is_zero(load) && (space.is_zero(momentum) || is_free || unknowns > kLargestForVelocities)) return response;
   std::vector<double> values;
-  const auto solver = factored_stiffness(model, values);
+  const bool is_motion = !model.parts().loads_at && end > initial.t;
+  const auto solver = factored_stiffness(model, values, is_motion ? std::optional(end - initial.t) : std::nullopt);
   if (!solver) return response;
   const auto solve = [&](const Vector& b) { return solution(*solver, model, values, b); };
   std::optional<Vector> u = solve(load);

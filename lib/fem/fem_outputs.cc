@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lib/fem/fem_state_view.h"
+#include "lib/fem/terms/added_term.h"
 #include "lib/fem/nodal_fields.h"
 
 namespace orthodyn {
@@ -103,15 +104,23 @@ Values mesh_error_density(const View& view) {
   return out;
 }
 
-// With added terms, a body may be strained without stress: the error is then compared with the energy that the strains
-// would have without these terms.
+// Energy of a region without the added terms that are loads, such as swelling, J.
+double unloaded_energy(const ElasticTerm& term, const View& view) {
+  double sum = term.energy(view.state());
+  for (const AddedTerm* added : term.added())
+    if (!added->is_load() && added->energy_kind() == EnergyKind::elastic) sum += added->energy(view.state());
+  return sum;
+}
+
+// With swelling, a body may be strained without stress: the error is then compared with the energy that the strains
+// would have without it.
 Values mesh_error(const View& view) {
   Values out{0, 0};
   const auto& terms = view.parts().elastic;
   for (std::size_t r = 0; r < terms.size(); ++r) {
     const RegionMeshError& region = view.mesh_errors()[r];
     out[0] += region.error.sum();
-    out[1] += terms[r]->added().empty() ? region.energy : std::max(region.energy, terms[r]->energy(view.state()));
+    out[1] += terms[r]->added().empty() ? region.energy : std::max(region.energy, unloaded_energy(*terms[r], view));
   }
   return out;
 }

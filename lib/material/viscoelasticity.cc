@@ -21,7 +21,7 @@ void check_branch(const PronyBranch& branch, const Config& config) {
         "`deviatoric` and `bulk` for the two constants of an isotropic material");
 }
 
-// The part of C that changes the shape of an isotropic material, and the part that changes its volume.
+// The part of C of an isotropic material that resists changes of volume.
 Mat6 volumetric_part(const Mat6& C) {
   Mat6 volume = Mat6::Zero();
   volume.topLeftCorner<3, 3>().setConstant(C.topLeftCorner<3, 3>().sum() / 9);
@@ -75,11 +75,9 @@ std::string why_inadmissible(const Viscoelasticity& branches, const Stiffness& s
       symmetric_eigenvalues(Mat6(inverse * relaxed_stiffness(branches, C) * inverse.transpose())).minCoeff();
   if (smallest > 1e-9) return "";
   return fmt::format(
-      "viscoelastic: the relaxed stiffness is not positive definite: in one kind of strain only {:.4g} of the "
-      "stiffness "
-      "is left after all relaxation, and it must be above 0; lower the shares, whose sum must stay below 1 for each "
-      "constant",
-      smallest);
+      "viscoelastic: the relaxed stiffness is not positive definite: in one kind of strain {} of the stiffness is left "
+      "after all relaxation; lower the shares, whose sum must stay below 1 for each constant",
+      smallest > -1e-9 ? "nothing" : fmt::format("{:.4g}", smallest));
 }
 
 }  // namespace orthodyn

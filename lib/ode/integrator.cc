@@ -16,8 +16,7 @@ std::unique_ptr<Integrator> IntegratorChoice::make(const Model& model, const Tas
       throw ConfigError(
           "this method is not available with viscoelastic materials; use cvode_bdf, ida_bdf, arkode_dirk, arkode_erk "
           "or auto, or a fixed step "
-          "with newmark, hht_alpha, generalized_alpha, backward_euler, bathe, tr_bdf2, semi_implicit_euler or "
-          "central_differences");
+          "with newmark, hht_alpha, generalized_alpha, backward_euler, bathe, tr_bdf2 or semi_implicit_euler");
   }
 }
 

@@ -68,7 +68,7 @@ class InternalHistory final : public Integrator {
   }
 
   void start(const State& state) override {
-    model_.begin(state.t, state.q, state.z);
+    model_.begin(state.t, state.q, internals_of(model_.internal(), state.t, state.q, state.z));
     end_.reset();
     method_->start(state);
   }

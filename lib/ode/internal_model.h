@@ -59,6 +59,14 @@ class InternalModel : public Model {
   Traits traits_;
 };
 
+// The internal variables of a state: z, or their equilibrium if z is empty.
+inline Vector internals_of(const InternalVariables& internal, double t, const Vector& q, const Vector& z) {
+  if (z.size() > 0) return z;
+  Vector e(internal.size());
+  internal.strains(t, q, e);
+  return e;
+}
+
 // With given internal variables.
 class GivenInternalModel final : public InternalModel {
  public:

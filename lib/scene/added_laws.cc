@@ -52,6 +52,11 @@ void check_neo_hookean(const Scene& scene, const Region& region) {
 
 bool is_viscoelastic(const Material& material) { return !material.viscoelasticity().empty(); }
 
+bool any_viscoelastic(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const auto& entry) { return is_viscoelastic(*entry.second); });
+}
+
 bool swells(const Scene& scene, const Material& material) { return !causes(scene, material).empty(); }
 
 std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, const ElasticPart& part,
@@ -98,6 +103,15 @@ void check_added_laws(const Config& config, const Scene& scene) {
   for (const auto& [name, region] : scene.regions)
     if (region.law == ElasticLaw::neo_hookean) check_neo_hookean(scene, region);
   check_fibres(config, scene);
+  for (const auto& [name, material] : scene.materials)
+    if (is_viscoelastic(*material) && swells(scene, *material))
+      config.at("materials")
+          .at(name)
+          .at("viscoelastic")
+          .fail(
+              "is not available for a material that swells by moisture or temperature: remove it, or the scene's "
+              "section "
+              "'moisture' or 'temperature'");
   if (scene.elasticity.corotation == Corotation::warped)
     for (const auto& [name, material] : scene.materials)
       if (is_viscoelastic(*material))

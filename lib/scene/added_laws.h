@@ -26,6 +26,7 @@ std::unique_ptr<const AddedLaw> replacing_law(const Scene& scene, const ElasticP
 bool swells(const Scene& scene, const Material& material);
 
 bool is_viscoelastic(const Material& material);
+bool any_viscoelastic(const Scene& scene);
 
 // Sets the traits that the added laws of the regions' materials change.
 void declare_added_laws(const Scene& scene, const std::vector<const Region*>& regions, Traits& traits);

@@ -250,10 +250,9 @@ bool may_be_damped(const Scene& scene) {
   return harmonic.damping_ratio > 0 || !harmonic.losses.empty() || scene.damping.has_value() ||
          std::any_of(scene.regions.begin(), scene.regions.end(),
                      [](const auto& region) { return region.second.stiffness_damping.has_value(); }) ||
-         std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const auto& entry) { return is_viscoelastic(*entry.second); }) ||
-         std::any_of(scene.terms.begin(), scene.terms.end(),
-                     [](const auto& term) { return term->factor_in_time() == nullptr; });
+         any_viscoelastic(scene) || std::any_of(scene.terms.begin(), scene.terms.end(), [](const auto& term) {
+           return term->factor_in_time() == nullptr;
+         });
 }
 
 // Springs, dashpots and the ground are tied to points in space, which do not move with the supports.
@@ -382,6 +381,9 @@ void require_countable_times(const Config& config, const Scene& scene) {
 
 void check_sensitivities(const Scene& scene) {
   if (scene.sensitivities.empty()) return;
+  if (scene.harmonic && any_viscoelastic(scene))
+    scene.sensitivities.origin.fail(
+        "are not available in harmonic analyses with viscoelastic materials: use losses instead, or leave them out");
   if (scene.integrator && !scene.integrator->computes_sensitivities())
     scene.sensitivities.origin.fail(
         "are integrated with the motion, which this integrator does not do: set integrator.type to cvode_bdf, "

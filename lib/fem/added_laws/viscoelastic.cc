@@ -51,7 +51,7 @@ class ViscoelasticAt : public AddedLawAt {
     if (kind == TangentKind::exact) add_swelling_moduli(at.H, at.Q, relaxed_stress(at), K);
   }
 
-  // Without a history between the two states: z is that of the second one.
+  // Not used by methods: models with internal variables have no discrete gradient.
   Mat3T<Batch> mean_stress(const LawPoint& at0, const LawPoint& at1) const override {
     const Mat3T<Batch> s = Batch(0.5) * (relaxed_stress(at0) + relaxed_stress(at1));
     return is_linear_ ? Mat3T<Batch>(-at0.Q * s) : mean_swelling_stress(at0.H, at1.H, at0.Q, s);

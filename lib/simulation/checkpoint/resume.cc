@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lib/ode/internal_variables.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/machine.h"
@@ -50,7 +51,8 @@ void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const 
   const FemModel& model = *setup.built.model;
   const Eigen::Index unknowns = model.num_dofs_of_all();
   if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == unknowns &&
-      checkpoint.state.v.size() == unknowns)
+      checkpoint.state.v.size() == unknowns &&
+      checkpoint.state.z.size() == (model.internal_variables() ? model.internal_variables()->size() : 0))
     return;
   throw ConfigError(
       folder.checkpoint().string(),

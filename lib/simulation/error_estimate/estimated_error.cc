@@ -127,16 +127,19 @@ StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, co
                                    const MeshError& recovered, const std::vector<int>& nodes) {
   StateMeshError out{recovered};
   MeshError& error = out.error;
-  error.by_finer_elements = try_finer_elements(model, error.cpu_seconds, [&] {
-    const StateError found =
-        state_error(FinerModel(scene, model), state, in_motion, nodes, probed_fields(scene, model));
-    const double elastic = model.evaluate("energy.mesh_error", state)[1];
-    if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("the mesh error is not finite");
-    error.relative = found.energy / (found.energy + elastic);
-    error.samples = 1;
-    out.displacements = found.displacements;
-    error.probed = probed_errors(scene, model, found);
-  });
+  // Finer elements have no history of internal variables.
+  const bool is_relaxed = state.z.size() == 0;
+  error.by_finer_elements = is_relaxed && try_finer_elements(model, error.cpu_seconds, [&] {
+                              const StateError found = state_error(FinerModel(scene, model), state, in_motion, nodes,
+                                                                   probed_fields(scene, model));
+                              const double elastic = model.evaluate("energy.mesh_error", state)[1];
+                              if (!std::isfinite(found.energy) || !(found.energy + elastic > 0))
+                                throw RunError("the mesh error is not finite");
+                              error.relative = found.energy / (found.energy + elastic);
+                              error.samples = 1;
+                              out.displacements = found.displacements;
+                              error.probed = probed_errors(scene, model, found);
+                            });
   error.locking_risk = locking_risk(model, state, error.by_finer_elements);
   error.probed_unknown = error.probed.empty() && !probed_fields(scene, model).empty();
   return out;

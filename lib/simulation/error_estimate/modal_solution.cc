@@ -63,7 +63,8 @@ Coordinate drift_away(double d, double f, Coordinate start, double t) {
 
 std::optional<ModalSolution> ModalSolution::find(const Model& model, const State& initial) {
   const auto& traits = model.traits();
-  if (!traits.linear || traits.time_dependent || !model.pattern().symmetric || model.num_dofs() > kLargest)
+  if (!traits.linear || model.internal_variables() || traits.time_dependent || !model.pattern().symmetric ||
+      model.num_dofs() > kLargest)
     return std::nullopt;
   const Vector zero = Vector::Zero(model.num_dofs());
   Linearization at;

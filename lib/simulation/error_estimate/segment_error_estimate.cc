@@ -113,7 +113,10 @@ void SegmentRecorder::add_powers(const ObservedState& observed) {
 
 // If the amplitude decays at a rate g, the energy decays at 2 g. The energy is twice the mean kinetic energy T, so that
 // g = dissipated power / (4 T).
-double SegmentRecorder::decay() const { return kinetic_ > 0 ? dissipated_ / (4 * kinetic_) : 0; }
+// A creeping body dissipates without vibrating.
+double SegmentRecorder::decay() const {
+  return kinetic_ > 0 && !model_.internal_variables() ? dissipated_ / (4 * kinetic_) : 0;
+}
 
 std::optional<SegmentErrorEstimate> segment_error_estimate(const Setup& setup, const Integrator& run,
                                                            const SegmentRecorder& recorder, double end,

@@ -54,6 +54,7 @@ HarmonicResponse::HarmonicResponse(const Setup& setup) : setup_(setup), model_(*
     setup.config.at("harmonic").at("tap_seconds").fail("needs loads with the phase 0 or 180 deg: a tap has no phase");
   modes_ = find_modes();
   response_.emplace(reduced_system());
+  if (model_.internal_variables()) response_->include(force, range());  // at resonances with the stiffness there
   for (std::size_t k = 0; k < modes_.modes.size(); ++k)
     resonances_.push_back({response_->frequency(static_cast<int>(k)), response_->loss_factor(static_cast<int>(k))});
   require_damping();
@@ -97,7 +98,9 @@ State HarmonicResponse::steady_state() {
 
 VibrationRange HarmonicResponse::range() const {
   std::vector<double> natural;
-  for (const Mode& mode : modes_.modes) natural.push_back(mode.frequency());
+  for (std::size_t k = 0; k < modes_.modes.size(); ++k)
+    natural.push_back(response_ ? response_->frequency(static_cast<int>(k)) : modes_.modes[k].frequency());
+  std::sort(natural.begin(), natural.end());
   const Harmonic& harmonic = *setup_.scene.harmonic;
   return {check_frequencies(frequency_grid(harmonic, {}), natural), harmonic.rtol};
 }
@@ -127,8 +130,8 @@ void HarmonicResponse::require_damping() const {
 
 std::size_t HarmonicResponse::modes_in_range() const {
   const double highest = setup_.scene.harmonic->highest();
-  return static_cast<std::size_t>(std::count_if(modes_.modes.begin(), modes_.modes.end(),
-                                                [&](const Mode& mode) { return mode.frequency() <= highest; }));
+  return static_cast<std::size_t>(std::count_if(resonances_.begin(), resonances_.end(),
+                                                [&](const Resonance& one) { return one.frequency <= highest; }));
 }
 
 FrequencyErrors HarmonicResponse::mesh_errors() const {

@@ -79,7 +79,8 @@ OutputSize output_size_of(const Setup& setup) {
   size.frame_bytes = scene.output.fields.empty() ? 0 : frame_bytes_of(*setup.built.model, scene.output.fields);
   size.row_bytes = row_bytes_of(setup);
   if (scene.checkpoint)
-    size.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
+    size.checkpoint_bytes = sizeof(double) * (2 * static_cast<double>(setup.built.model->num_dofs_of_all()) +
+                                              static_cast<double>(setup.built.initial.z.size()));
   return size;
 }
 

@@ -141,12 +141,14 @@ class DynamicAnalysis {
     return outcome;
   }
 
-  // Upper bound of the checkpoint's size: displacements and velocities, three vectors of LinearityWatch, and small
-  // parts.
+  // Upper bound of the checkpoint's size: displacements and velocities, three vectors of LinearityWatch, internal
+  // variables, and small parts.
   std::size_t bytes_of_checkpoint() const {
     constexpr std::size_t kSmallParts = 64 << 10;
-    return 5 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) + kSmallParts +
-           2 * context_.resolved.size();
+    constexpr std::size_t kNumber = 9;  // bytes of a number in CBOR
+    return kNumber * (5 * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) +
+                      static_cast<std::size_t>(setup_.built.initial.z.size())) +
+           kSmallParts + 2 * context_.resolved.size();
   }
 
   // False if the checkpoint cannot be written, which must not hide the failure of a run.

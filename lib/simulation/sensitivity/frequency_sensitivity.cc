@@ -168,7 +168,8 @@ std::vector<FrequencySensitivity> frequency_sensitivities(const Config& scene, c
   std::vector<FrequencySensitivity> out;
   if (parameters.empty()) return out;
   for (const auto& term : model.parts().loads)
-    if (dynamic_cast<const AddedTerm*>(term.get()) && !term->is_load())
+    if (const auto* added = dynamic_cast<const AddedTerm*>(term.get());
+        added && !term->is_load() && added->num_internal() == 0)
       throw ConfigError(parameters.front().path(),
                         "derivatives of natural frequencies do not exist with passive fibres, whose stiffness jumps at "
                         "rest");

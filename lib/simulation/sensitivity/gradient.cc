@@ -108,6 +108,8 @@ void require_adjoint(const Setup& setup) {
   const Traits& traits = setup.built.model->traits();
   const Scene& scene = setup.scene;
   const auto fail = [](const std::string& reason) { throw ConfigError("gradient", reason); };
+  if (!scene.is_static() && setup.built.model->internal_variables())
+    fail("adjoint equations of motions are not available with viscoelastic materials");
   if (!traits.smooth) fail("the scene has contact, whose force has kinks");
   if (!traits.exact_stiffness || has_unsymmetric_load(scene, setup.built.model->parts().mesh))
     fail("the stiffness is unsymmetric (a load that follows the body, or corotation: warped): use sensitivities");

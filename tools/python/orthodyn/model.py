@@ -74,7 +74,8 @@ class Model:
         return np.where(unknowns >= 0, self._checked(q, "q")[np.maximum(unknowns, 0)], 0.0)
 
     def force(self, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
-        """f(t, q, v), N. Raises RecoverableError if f cannot be evaluated at this state."""
+        """f(t, q, v), N. Raises RecoverableError if f cannot be evaluated at this state. Viscoelastic materials are at
+        equilibrium (relaxed), here and in all other functions of the model."""
         return self._core.force(t, self._checked(q, "q"), self._velocity(v))
 
     def tangent(self, t: float, q: np.ndarray, v: np.ndarray | None = None, *, gauss_newton: bool = False

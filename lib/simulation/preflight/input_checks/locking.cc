@@ -1,13 +1,24 @@
 // Nearly incompressible materials without the mixed formulation: linear tetrahedra lock, and stresses of other elements
 // are wrong.
 
+#include <algorithm>
 #include <set>
 #include <string>
 
+#include "lib/fem/terms/added_term.h"
 #include "lib/material/stiffness_contrast.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
 
 namespace orthodyn::input_checks {
+
+namespace {
+
+bool excludes_mixed(const ElasticTerm& term) {
+  const auto added = term.added();
+  return std::any_of(added.begin(), added.end(), [](const AddedTerm* law) { return law->scales_with_stiffness(); });
+}
+
+}  // namespace
 
 void check_locking(const CheckContext& context, Warnings& out) {
   std::set<std::string> told;
@@ -27,9 +38,12 @@ void check_locking(const CheckContext& context, Warnings& out) {
            material, topology(term->type().shape()).plural);
     else
       warn(out, place,
-           "{}, and stresses are then wrong, by up to several times their size, without the mixed formulation: remove "
-           "{}",
-           material, region.options.is_warped() ? "elasticity.corotation: warped" : "formulation: displacement");
+           "{}, and stresses are then wrong, by up to several times their size, without the mixed formulation: {}",
+           material,
+           region.options.is_warped() ? "remove elasticity.corotation: warped"
+           : excludes_mixed(*term)    ? "it is not available for a material that swells or relaxes; use a smaller "
+                                        "Poisson's ratio, or judge displacements only"
+                                      : "remove formulation: displacement");
   }
 }
 
