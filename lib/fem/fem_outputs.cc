@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "lib/fem/fem_state_view.h"
-#include "lib/fem/terms/added_term.h"
 #include "lib/fem/nodal_fields.h"
+#include "lib/fem/terms/added_term.h"
 
 namespace orthodyn {
 
