@@ -155,7 +155,8 @@ clamps: [{{surface: x0}}]
               testing::HasSubstr("viscoelastic"));
   EXPECT_THAT(message(isotropic,
                       "analysis: harmonic\nloads: [{surface: x1, force: [1, 0, 0], factor: {type: harmonic}}]\n"
-                      "harmonic: {frequencies: [1 Hz]}\nsensitivities: [materials.m.young]"),
+                      "harmonic: {frequencies: [1 Hz]}\nsensitivities: [materials.m.young]\n"
+                      "output: {probes: {p: {at: [1, 1, 1]}}}"),
               testing::HasSubstr("viscoelastic"));
 }
 
