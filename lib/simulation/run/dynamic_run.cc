@@ -145,9 +145,9 @@ class DynamicAnalysis {
   // variables, and small parts.
   std::size_t bytes_of_checkpoint() const {
     constexpr std::size_t kSmallParts = 64 << 10;
-    constexpr std::size_t kNumber = 9;  // bytes of a number in CBOR
-    return kNumber * (5 * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) +
-                      static_cast<std::size_t>(setup_.built.initial.z.size())) +
+    constexpr std::size_t kCborNumber = 9;  // bytes
+    return kCborNumber * (5 * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) +
+                          static_cast<std::size_t>(setup_.built.initial.z.size())) +
            kSmallParts + 2 * context_.resolved.size();
   }
 
