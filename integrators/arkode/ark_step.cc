@@ -104,9 +104,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     const double h = kRetryFactor * current_step();
     if (method_.step || callback_context_.failure || h < options_.h_min || end_.t + h == end_.t) return false;
     ++retries_;
-    positions(y(), internals()) = end_.q;
-    velocities(y(), internals()) = end_.v;
-    internal_part(y(), internals()) = z_end_;
+    positions(y(), extra()) = end_.q;
+    velocities(y(), extra()) = end_.v;
+    internal_part(y(), extra()) = z_end_;
     require(ARKStepReset(memory(), end_.t, y()));
     restart_renewal();
     require(ARKStepSetInitStep(memory(), h));
@@ -115,8 +115,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
 
   // Before the first step: sets end_ and the accelerations there.
   void begin_at(double t) {
-    end_ = {t, positions(y(), internals()), velocities(y(), internals()), Vector(model_.num_dofs())};
-    z_end_ = internal_part(y(), internals());
+    end_ = {t, positions(y(), extra()), velocities(y(), extra()), Vector(model_.num_dofs())};
+    z_end_ = internal_part(y(), extra());
     if (is_split()) {
       initial_acceleration(*explicit_.model, t, explicit_.at_end);
       initial_acceleration(*implicit_.model, t, end_.a);
@@ -132,10 +132,10 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   void take_end(double t) {
     std::swap(begin_, end_);
     end_.t = t;
-    end_.q = positions(y(), internals());
-    end_.v = velocities(y(), internals());
+    end_.q = positions(y(), extra());
+    end_.v = velocities(y(), extra());
     std::swap(z_begin_, z_end_);
-    z_end_ = internal_part(y(), internals());
+    z_end_ = internal_part(y(), extra());
     end_.a.resize(model_.num_dofs());
     if (is_split()) {
       explicit_.at_end = explicit_.last;
@@ -154,15 +154,15 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     N_Vector predicted, stage, stage_derivative, data;
     void* user;
     require(ARKStepGetNonlinearSystemData(memory(), &at, &predicted, &stage, &stage_derivative, &gamma, &data, &user));
-    return velocities(stage_derivative, internals());
+    return velocities(stage_derivative, extra());
   }
 
   int last_order() const override { return main_table().q; }
   long retries() const override { return retries_; }
 
   int dense_output(double t, N_Vector out) const override {
-    orthodyn::interpolate(begin_, end_, t, positions(out, internals()), velocities(out, internals()));
-    if (internal_) internal_part(out, internals()) = interpolated_internals(t);
+    orthodyn::interpolate(begin_, end_, t, positions(out, extra()), velocities(out, extra()));
+    if (internal_) internal_part(out, extra()) = interpolated_internals(t);
     return 0;
   }
 
@@ -248,8 +248,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   }
 
   int all_rates(ArkPart& part, double t, N_Vector y, N_Vector y_dot) {
-    positions(y_dot, internals()) = velocities(y, internals());
-    const int flag = acceleration(part, t, y, velocities(y_dot, internals()));
+    positions(y_dot, extra()) = velocities(y, extra());
+    const int flag = acceleration(part, t, y, velocities(y_dot, extra()));
     return flag ? flag : evaluate_internal_rates(t, y, y_dot);
   }
 
@@ -258,9 +258,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   int acceleration(ArkPart& part, double t, N_Vector y, VectorRef a) {
     bool is_known = false;
     const int thrown = guarded(callback_context_, [&] {
-      is_known = t == end_.t &&
-                 model_.space().all(positions(y, internals()) == end_.q && velocities(y, internals()) == end_.v &&
-                                    internal_part(y, internals()) == z_end_);
+      is_known =
+          t == end_.t && model_.space().all(positions(y, extra()) == end_.q && velocities(y, extra()) == end_.v &&
+                                            internal_part(y, extra()) == z_end_);
       if (is_known) a = part.at_end;
     });
     if (thrown != 0 || is_known) return thrown;

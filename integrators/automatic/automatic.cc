@@ -79,6 +79,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
     return !method || Registry<IntegratorChoice>::entries().at(*method).make()->computes_sensitivities();
   }
   InternalSupport internal_support() const override { return InternalSupport::own; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // needed even if both scales are given
@@ -107,6 +108,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
     if (task.sensitivities) return {.method = "cvode_bdf", .rationale = "it integrates sensitivities with the motion"};
+    if (model.constraints()) return {.method = "ida_bdf", .rationale = "it solves the constraints of the joints"};
     if (model.internal_variables())
       return {.method = "cvode_bdf", .rationale = "it controls the error of viscoelastic strains"};
     // central_differences cannot limit its steps by h0, h_min and h_max.

@@ -221,7 +221,7 @@ class Cvode final : public SundialsIntegrator {
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
-    const Eigen::Index m = me.internals();
+    const Extra m = me.extra();
     positions(y_dot, m) = velocities(y, m);
     const int flag = me.evaluate_acceleration(me.model_, t, y, velocities(y_dot, m));
     return flag ? flag : me.evaluate_internal_rates(t, y, y_dot);

@@ -1,6 +1,6 @@
 // IDA's BDF on the implicit system F = (q' - v, M v' - f) = 0 (Hindmarsh et al. 2005): fixed leading coefficient,
-// variable order 1-5. With a consistent mass, steps solve no systems with M alone. The library is IDAS, which is IDA
-// with forward sensitivities.
+// variable order 1-5. Constraints make the system one of index 2 (constraint_solve.h). With a consistent mass, steps
+// solve no systems with M alone. The library is IDAS, which is IDA with forward sensitivities.
 #include <fmt/format.h>
 #include <idas/idas.h>
 #include <idas/idas_ls.h>
@@ -54,6 +54,7 @@ class IdaBdf final : public SundialsIntegrator {
     require(IDASetMaxOrd(m, max_order_));
     require(IDASetNonlinConvCoef(m, options_.nonlinear_coefficient));
     set_step_limits();
+    if (model_.constraints()) exclude_multipliers();
     if (!model_.traits().smooth) use_nonsmooth_newton();
     require(IDASetMaxNonlinIters(m, options_.max_newton_iterations));
     newton_system_->create_residual(context_);
@@ -115,9 +116,58 @@ class IdaBdf final : public SundialsIntegrator {
 
   // Sets q' = v and v' = M^-1 f, so that the initial values satisfy F = 0.
   void make_consistent(double t) {
-    positions(y_dot_.get(), internals()) = velocities(y(), internals());
-    initial_acceleration(model_, t, velocities(y_dot_.get(), internals()));
+    positions(y_dot_.get(), extra()) = velocities(y(), extra());
+    if (model_.constraints()) fit_velocities(t);
+    initial_acceleration(model_, t, velocities(y_dot_.get(), extra()));
+    if (model_.constraints()) find_multipliers(t);
     evaluate_internal_rates(t, y(), y_dot_.get());
+  }
+
+  // G and M^-1 G^T at y, and the factor of G M^-1 G^T.
+  struct AtStart {
+    Eigen::SparseMatrix<double> G;
+    Eigen::MatrixXd W;
+    Eigen::LDLT<Eigen::MatrixXd> H;
+  };
+  AtStart constraints_at_start(double t) {
+    AtStart at{model_.constraints()->jacobian(t, positions(y(), extra())), {}, {}};
+    at.W = at.G;
+    for (Eigen::Index k = 0; k < at.W.cols(); ++k) model_.solve_mass(at.W.col(k));
+    at.H.compute(at.G.transpose() * at.W);
+    return at;
+  }
+
+  // Removes the velocities that violate the constraints, as round-off and loads' kinks leave them.
+  void fit_velocities(double t) {
+    const AtStart at = constraints_at_start(t);
+    Vector rates(extra().constraints);
+    auto v = velocities(y(), extra());
+    model_.constraints()->rates(t, positions(y(), extra()), v, rates);
+    v -= at.W * at.H.solve(rates);
+    positions(y_dot_.get(), extra()) = v;
+  }
+
+  // Sets lambda, mu = 0, and the accelerations with the forces of the constraints.
+  void find_multipliers(double t) {
+    const AtStart at = constraints_at_start(t);
+    auto a = velocities(y_dot_.get(), extra());
+    Vector curvature(extra().constraints);
+    model_.constraints()->curvature(t, positions(y(), extra()), velocities(y(), extra()), curvature);
+    velocity_multipliers(y(), extra()) = at.H.solve(at.G.transpose() * a + curvature);
+    position_multipliers(y(), extra()).setZero();
+    a -= at.W * velocity_multipliers(y(), extra());
+    velocity_multipliers(y_dot_.get(), extra()).setZero();
+    position_multipliers(y_dot_.get(), extra()).setZero();
+  }
+
+  // Multipliers have no derivatives in the equations.
+  void exclude_multipliers() {
+    const OwnedVector differential(N_VClone(y()));
+    N_VConst(1, differential.get());
+    velocity_multipliers(differential.get(), extra()).setZero();
+    position_multipliers(differential.get(), extra()).setZero();
+    require(IDASetId(memory(), differential.get()));
+    require(IDASetSuppressAlg(memory(), SUNTRUE));
   }
 
   // Callbacks.
@@ -125,7 +175,7 @@ class IdaBdf final : public SundialsIntegrator {
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {
     auto& me = self(user);
-    const Eigen::Index m = me.internals();
+    const Extra m = me.extra();
     const int flag = me.evaluate_internal_rates(t, y, r);
     return flag ? flag : guarded(me.callback_context_, [&] {
       const Measure measure(me.statistics_.force);
@@ -135,6 +185,13 @@ class IdaBdf final : public SundialsIntegrator {
       me.model_.multiply_mass(velocities(y_dot, m), me.momentum_);
       velocities(r, m) = me.momentum_ - velocities(r, m);
       internal_part(r, m) = internal_part(y_dot, m) - internal_part(r, m);
+      if (const Constraints* constraints = me.model_.constraints()) {
+        const Eigen::SparseMatrix<double> G = constraints->jacobian(t, positions(y, m));
+        positions(r, m) += G * position_multipliers(y, m);
+        velocities(r, m) += G * velocity_multipliers(y, m);
+        constraints->rates(t, positions(y, m), velocities(y, m), velocity_multipliers(r, m));
+        constraints->values(t, positions(y, m), position_multipliers(r, m));
+      }
     });
   }
 
@@ -172,6 +229,7 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options, public
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return true; }
   InternalSupport internal_support() const override { return InternalSupport::own; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes),

@@ -68,19 +68,34 @@ inline Eigen::Map<Vector> view(N_Vector v) {
   return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(length)};
 }
 
-// The parts q, v and z of the integrators' state y = (q, v, z) with `internals` internal variables z.
-inline auto positions(N_Vector y, Eigen::Index internals = 0) {
+// Numbers of unknowns besides q and v: internal variables z (lib/ode/internal_variables.h), and constraints
+// (lib/ode/constraints.h), each with the multipliers lambda of the velocities and mu of the positions.
+struct Extra {
+  Eigen::Index internals = 0, constraints = 0;
+  Eigen::Index size() const { return internals + 2 * constraints; }
+};
+
+// The parts of the integrators' state y = (q, v, z, lambda, mu).
+inline auto positions(N_Vector y, const Extra& extra = {}) {
   auto all = view(y);
-  return Eigen::Map<Vector>(all.data(), (all.size() - internals) / 2);
+  return Eigen::Map<Vector>(all.data(), (all.size() - extra.size()) / 2);
 }
-inline auto velocities(N_Vector y, Eigen::Index internals = 0) {
+inline auto velocities(N_Vector y, const Extra& extra = {}) {
   auto all = view(y);
-  const Eigen::Index n = (all.size() - internals) / 2;
+  const Eigen::Index n = (all.size() - extra.size()) / 2;
   return Eigen::Map<Vector>(all.data() + n, n);
 }
-inline auto internal_part(N_Vector y, Eigen::Index internals) {
+inline auto internal_part(N_Vector y, const Extra& extra) {
   auto all = view(y);
-  return Eigen::Map<Vector>(all.data() + (all.size() - internals), internals);
+  return Eigen::Map<Vector>(all.data() + (all.size() - extra.size()), extra.internals);
+}
+inline auto velocity_multipliers(N_Vector y, const Extra& extra) {
+  auto all = view(y);
+  return Eigen::Map<Vector>(all.data() + (all.size() - 2 * extra.constraints), extra.constraints);
+}
+inline auto position_multipliers(N_Vector y, const Extra& extra) {
+  auto all = view(y);
+  return Eigen::Map<Vector>(all.data() + (all.size() - extra.constraints), extra.constraints);
 }
 
 }  // namespace orthodyn::sundials

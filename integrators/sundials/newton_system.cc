@@ -16,7 +16,12 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
     if (options.is_full())
       throw ConfigError("linear_solver: klu_full is not available with viscoelastic materials; use klu or auto");
     internal_.emplace(model);
-    internals_ = internal_->internal().size();
+    extra_.internals = internal_->internal().size();
+  }
+  if (const Constraints* constraints = model.constraints()) {
+    if (options.is_full()) throw ConfigError("linear_solver: klu_full is not available with joints; use klu or auto");
+    extra_.constraints = constraints->size();
+    constraints_.emplace(*constraints);
   }
   if (options.is_full()) full_.emplace(model);
   else
@@ -28,8 +33,8 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
 void NewtonSystem::create_first_order(SUNContext context, std::function<double()> gamma) {
   if (full_) return create_full(context);
   create_reduced(context, std::move(gamma), [this](N_Vector x, N_Vector b) {
-    model_.multiply_mass(velocities(b, internals_), momentum_);
-    positions(x, internals_) = positions(b, internals_);
+    model_.multiply_mass(velocities(b, extra_), momentum_);
+    positions(x, extra_) = positions(b, extra_);
     solve_reduced(x, b, 1);
   });
 }
@@ -39,8 +44,8 @@ void NewtonSystem::create_residual(SUNContext context) {
   create_reduced(
       context, [this] { return gamma_; },
       [this](N_Vector x, N_Vector b) {
-        momentum_ = gamma_ * velocities(b, internals_);
-        positions(x, internals_) = gamma_ * positions(b, internals_);
+        momentum_ = gamma_ * velocities(b, extra_);
+        positions(x, extra_) = gamma_ * positions(b, extra_);
         solve_reduced(x, b, gamma_);
       });
 }
@@ -51,7 +56,12 @@ void NewtonSystem::create_reduced(SUNContext context, std::function<double()> ga
   library_gamma_ = std::move(gamma);
   functions_.setup = [this] {
     bool factored = false;
-    const int thrown = guarded(callbacks_, [&] { factored = reduced_->factor(library_gamma_()); });
+    const int thrown = guarded(callbacks_, [&] {
+      factored = reduced_->factor(library_gamma_());
+      if (factored && constraints_)
+        factored = constraints_->factor(
+            [this](const Vector& right, Vector& solution) { reduced_->NewtonMatrix::solve(right, solution); });
+    });
     return thrown ? thrown : factored ? 0 : 1;
   };
   functions_.iterative = reduced_->is_iterative();
@@ -64,29 +74,39 @@ void NewtonSystem::create_reduced(SUNContext context, std::function<double()> ga
 }
 
 void NewtonSystem::solve_reduced(N_Vector x, N_Vector b, double scale) {
-  auto dq = positions(x, internals_), dv = velocities(x, internals_);
-  if (!internal_) return reduced_->solve(dq, momentum_, dq, dv);
+  auto dq = positions(x, extra_), dv = velocities(x, extra_);
   const double gamma = reduced_->gamma();
-  const InternalVariables& internal = internal_->internal();
-  const Vector& tau = internal.relaxation_times();
-  w_ = scale * internal_part(b, internals_).array() * tau.array() / (tau.array() + gamma);
-  work_.resize(momentum_.size());
-  internal.force_change(t_, q_, w_, work_);
-  momentum_ += gamma * work_;
+  if (constraints_) {
+    b_1_ = velocity_multipliers(b, extra_);
+    b_2_ = position_multipliers(b, extra_);
+    constraints_->before(gamma, b_1_, b_2_, dq, position_multipliers(x, extra_));
+  }
+  if (internal_) {
+    const Vector& tau = internal_->internal().relaxation_times();
+    w_ = scale * internal_part(b, extra_).array() * tau.array() / (tau.array() + gamma);
+    work_.resize(momentum_.size());
+    internal_->internal().force_change(t_, q_, w_, work_);
+    momentum_ += gamma * work_;
+  }
   reduced_->solve(dq, momentum_, dq, dv);
-  auto dz = internal_part(x, internals_);
-  internal.strain_change(t_, q_, dq, dz);
-  dz = w_.array() + gamma / (tau.array() + gamma) * dz.array();
+  if (constraints_) constraints_->after(gamma, b_1_, dq, dv, velocity_multipliers(x, extra_));
+  if (internal_) {
+    const Vector& tau = internal_->internal().relaxation_times();
+    auto dz = internal_part(x, extra_);
+    internal_->internal().strain_change(t_, q_, dq, dz);
+    dz = w_.array() + gamma / (tau.array() + gamma) * dz.array();
+  }
 }
 
 void NewtonSystem::linearize_reduced(double t, N_Vector y, double gamma) {
   if (internal_) {
-    z_ = internal_part(y, internals_);
+    z_ = internal_part(y, extra_);
     internal_->set(z_.data(), gamma);
     t_ = t;
-    q_ = positions(y, internals_);
+    q_ = positions(y, extra_);
   }
-  reduced_->linearize(t, positions(y, internals_), velocities(y, internals_));
+  if (constraints_) constraints_->linearize(t, positions(y, extra_));
+  reduced_->linearize(t, positions(y, extra_), velocities(y, extra_));
 }
 
 void NewtonSystem::create_full(SUNContext context) {

@@ -17,6 +17,7 @@
 
 #include "integrators/reduced_solve.h"
 #include "integrators/sundials/callbacks.h"
+#include "integrators/sundials/constraint_solve.h"
 #include "integrators/sundials/full_jacobian.h"
 #include "integrators/sundials/solver_adapter.h"
 #include "integrators/sundials/sundials_options.h"
@@ -60,7 +61,8 @@ class NewtonSystem {
   void create_reduced(SUNContext context, std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)>);
   // Computes K and D for the reduced solve at y. `gamma`: of the next factorisation, s.
   void linearize_reduced(double t, N_Vector y, double gamma);
-  // Solves for x = (dq, dv, dz), with momentum_ = p without G w, and r_q in x; `scale` times the part z of b is r_z.
+  // Solves for x = (dq, dv, dz, dlambda, dmu), with momentum_ = p without G w, and r_q in x. `scale` times the part z
+  // of b is r_z.
   void solve_reduced(N_Vector x, N_Vector b, double scale);
   void create_full(SUNContext context);
   void linearize_full(double t, N_Vector y);
@@ -74,9 +76,10 @@ class NewtonSystem {
   double gamma_ = 0;  // residual form: 1/cj of the last set-up, s
   std::function<double()> library_gamma_;
   std::optional<GivenInternalModel> internal_;  // only for models with internal variables
-  Eigen::Index internals_ = 0;                  // number of internal variables
+  Extra extra_;                                 // numbers of internal variables and constraints
+  std::optional<ConstraintSolve> constraints_;  // only for models with constraints
   double t_ = 0;                                // s, with q_ and z_: at which internal variables were linearised
-  Vector q_, z_, w_, work_;
+  Vector q_, z_, w_, work_, b_1_, b_2_;
   std::optional<ReducedSolve> reduced_;
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // used only by klu_full

@@ -53,18 +53,25 @@ void SundialsIntegrator::set_error_weights() {
 }
 
 void SundialsIntegrator::set_weights(N_Vector y, N_Vector weights) {
-  const Eigen::Index m = internals();
-  double of_motion = 1;  // SUNDIALS divides the sum of all squares by their number
-  if (m > 0) {
+  const Extra m = extra();
+  // SUNDIALS divides the sum of all squares by their number.
+  const auto all = static_cast<double>(size());
+  const double of_motion = m.size() > 0 ? std::sqrt(all / static_cast<double>(size() - m.size())) : 1;
+  if (m.internals > 0) {
     // A strain far below the largest one so far does not matter; at first, neither does one far below that of a motion
     // of the size of the position scale.
     constexpr double kLeastShare = 1e-2;
     const auto z = internal_part(y, m);
-    largest_strain_ = std::max({largest_strain_, z.norm() / std::sqrt(static_cast<double>(m)),
+    const auto count = static_cast<double>(m.internals);
+    largest_strain_ = std::max({largest_strain_, z.norm() / std::sqrt(count),
                                 kLeastShare * internal_->internal().strain_of(scales_.position)});
-    const auto all = static_cast<double>(size());
-    of_motion = std::sqrt(all / static_cast<double>(size() - m));
-    internal_part(weights, m).setConstant(std::sqrt(all / static_cast<double>(m)) / (options_.rtol * largest_strain_));
+    internal_part(weights, m).setConstant(std::sqrt(all / count) / (options_.rtol * largest_strain_));
+  }
+  // Multipliers are as accurate as the accelerations allow; their error is not tested.
+  if (m.constraints > 0) {
+    constexpr double kNone = 1e-100;
+    velocity_multipliers(weights, m).setConstant(kNone);
+    position_multipliers(weights, m).setConstant(kNone);
   }
   positions(weights, m).setConstant(of_motion / (options_.rtol * scales_.position));
   velocities(weights, m).setConstant(of_motion / (options_.rtol * scales_.velocity));
@@ -110,9 +117,9 @@ void SundialsIntegrator::restart_renewal() {
 }
 
 void SundialsIntegrator::start(const State& state) {
-  positions(y(), internals()) = state.q;
-  velocities(y(), internals()) = state.v;
-  if (internal_) internal_part(y(), internals()) = internals_of(internal_->internal(), state.t, state.q, state.z);
+  positions(y(), extra()) = state.q;
+  velocities(y(), extra()) = state.v;
+  if (internal_) internal_part(y(), extra()) = internals_of(internal_->internal(), state.t, state.q, state.z);
   t_ = state.t;
   if (started_) {
     const Counters now = counters();
@@ -159,9 +166,10 @@ void SundialsIntegrator::interpolate(double t, State& out) const {
   if (dense_output(t, dense.get()) < 0)
     throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, callback_context_.message));
   out.t = t;
-  out.q = positions(dense.get(), internals());
-  out.v = velocities(dense.get(), internals());
-  out.z = internal_part(dense.get(), internals());
+  out.q = positions(dense.get(), extra());
+  out.v = velocities(dense.get(), extra());
+  out.z = internal_part(dense.get(), extra());
+  out.lambda = velocity_multipliers(dense.get(), extra());
 }
 
 std::size_t SundialsIntegrator::bytes() const {
@@ -250,7 +258,7 @@ std::string SundialsIntegrator::iteration_failure() const {
 int SundialsIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {
   return guarded(callback_context_, [&] {
     const Measure measure(statistics_.force);
-    with_internals(model, y).force(t, positions(y, internals()), velocities(y, internals()), a);
+    with_internals(model, y).force(t, positions(y, extra()), velocities(y, extra()), a);
     require_finite(model, a);
     model.solve_mass(a);
   });
@@ -258,7 +266,7 @@ int SundialsIntegrator::evaluate_acceleration(const Model& model, double t, N_Ve
 
 const Model& SundialsIntegrator::with_internals(const Model& model, N_Vector y) {
   if (!internal_) return model;
-  internal_->set(internal_part(y, internals()).data());
+  internal_->set(internal_part(y, extra()).data());
   return *internal_;
 }
 
@@ -266,7 +274,7 @@ int SundialsIntegrator::evaluate_internal_rates(double t, N_Vector y, N_Vector y
   if (!internal_) return 0;
   return guarded(callback_context_, [&] {
     const Measure measure(statistics_.force);
-    const Eigen::Index m = internals();
+    const Extra m = extra();
     auto rates = internal_part(y_dot, m);
     internal_->internal().strains(t, positions(y, m), rates);
     rates = (rates - internal_part(y, m)).cwiseQuotient(internal_->internal().relaxation_times());
@@ -276,7 +284,7 @@ int SundialsIntegrator::evaluate_internal_rates(double t, N_Vector y, N_Vector y
 void SundialsIntegrator::initial_acceleration(const Model& model, double t, VectorRef a) {
   try {
     const Measure measure(statistics_.force);
-    with_internals(model, y()).force(t, positions(y(), internals()), velocities(y(), internals()), a);
+    with_internals(model, y()).force(t, positions(y(), extra()), velocities(y(), extra()), a);
     require_finite(model, a);
   } catch (const RecoverableError& e) {
     throw initial_force_error(name_, t, e.what());

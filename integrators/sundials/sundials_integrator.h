@@ -1,7 +1,7 @@
 // Base class of the integrators that call SUNDIALS, with the state y = (q, v, z); z are the internal variables of the
-// model (lib/ode/internal_variables.h), which most models lack. It contains what CVODE, IDA and ARKODE
-// share: state, error weights, Newton's linear systems, counters and failure messages. One derived class per library
-// makes the calls that differ.
+// model (lib/ode/internal_variables.h), which most models lack; IDA adds multipliers of constraints. It contains what
+// CVODE, IDA and ARKODE share: state, error weights, Newton's linear systems, counters and failure messages. One
+// derived class per library makes the calls that differ.
 //
 // Error test: the local error e of y is accepted if the root mean square of w_i e_i is at most 1. The inverse weight
 // 1/w_i is rtol times the position scale for positions and rtol times the velocity scale for velocities. Tolerances
@@ -17,6 +17,7 @@
 #include "integrators/renewal_policy.h"
 #include "integrators/sundials/newton_system.h"
 #include "integrators/sundials/nonsmooth_newton.h"
+#include "lib/ode/constraints.h"
 #include "lib/ode/internal_model.h"
 
 namespace orthodyn::sundials {
@@ -121,8 +122,10 @@ class SundialsIntegrator : public Integrator {
   // Sets the rates (e - z) / tau of the internal variables in y_dot, if the model has any. As evaluate_acceleration().
   int evaluate_internal_rates(double t, N_Vector y, N_Vector y_dot);
 
-  Eigen::Index internals() const { return internal_ ? internal_->internal().size() : 0; }
-  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()) + internals(); }
+  Extra extra() const {
+    return {internal_ ? internal_->internal().size() : 0, model_.constraints() ? model_.constraints()->size() : 0};
+  }
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()) + extra().size(); }
   // The model with the internal variables of y; `model` itself if it has none.
   const Model& with_internals(const Model& model, N_Vector y);
   N_Vector y() const { return y_.get(); }

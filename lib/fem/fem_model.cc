@@ -30,6 +30,7 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, con
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
   parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic, parts_.subdomain.get());
   internal_ = make_internal_variables(parts_);
+  constraints_ = make_joint_constraints(parts_);
   if (parts_.subdomain || internal_) return;
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
   const bool pulled = supports_pull(parts_);  // the pull is a force without energy
@@ -190,13 +191,13 @@ Vector FemModel::whole_of(const Vector& part) const {
 }
 
 State FemModel::whole(const State& state) const {
-  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z};
+  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z, state.lambda};
 }
 
 Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Vector(all(parts_.unknowns)) : all; }
 
 State FemModel::part(const State& whole) const {
-  return {whole.t, part_of(whole.q), part_of(whole.v), whole.load_factor, whole.z};
+  return {whole.t, part_of(whole.q), part_of(whole.v), whole.load_factor, whole.z, whole.lambda};
 }
 
 // Rotations are about the mean node position and scaled by the body's size, so that all columns have similar norms.

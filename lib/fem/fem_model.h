@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/joints.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/motion/moved_nodes.h"
 #include "lib/fem/stress_recovery.h"
@@ -53,8 +54,9 @@ class FemModel : public Model {
     std::unique_ptr<MovedNodes> moved;                  // null without motions
     std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks; null with one rank
     std::vector<Support> supports;                      // supports whose reactions are outputs
-    std::unique_ptr<SupportMass> support_mass;          // null without motions and supports
-    std::unique_ptr<StressRecovery> recovery;           // set by FemModel
+    std::vector<Joint> joints = {};
+    std::unique_ptr<SupportMass> support_mass;  // null without motions and supports
+    std::unique_ptr<StressRecovery> recovery;   // set by FemModel
     Traits traits;
   };
 
@@ -80,6 +82,7 @@ class FemModel : public Model {
   std::optional<std::vector<std::string>> load_parts() const override;
   const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
   const InternalVariables* internal_variables() const override { return internal_.get(); }
+  const Constraints* constraints() const override { return constraints_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override;
 
@@ -108,6 +111,7 @@ class FemModel : public Model {
 
   Parts parts_;
   std::unique_ptr<const InternalVariables> internal_;   // null without viscoelastic materials
+  std::unique_ptr<const Constraints> constraints_;      // null without joints
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null if a force has no energy, or with several ranks
 };
 
@@ -161,6 +165,13 @@ void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, cons
 // The internal variables of the model; null if no material has any. `parts` must outlive the result. Sets the numbers
 // of the terms' first variables.
 std::unique_ptr<const InternalVariables> make_internal_variables(FemModel::Parts& parts);
+
+// The constraints of the joints; null without any. `parts` must outlive the result.
+std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts);
+// Forces of all joints on the nodes, and of one joint on its first body (N), at displacements u with the multipliers
+// lambda; joint_force() is NaN without multipliers.
+NodalVector joint_forces(const FemModel::Parts& parts, const NodalVector& u, const Vector& lambda);
+Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalVector& u, const Vector& lambda);
 
 // The discrete gradient of the model: the sum of Term::add_mean_force() and of the damping at mid-step. `parts` must
 // outlive the result. mean_force() is thread-safe, and throws RecoverableError if a corotational element is inverted or

@@ -317,10 +317,31 @@ std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports) {
   return out;
 }
 
+std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
+  std::vector<FemOutput> out;
+  for (const Joint& joint : joints)
+    out.push_back(
+        {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
+         [&joint](const View& view) {
+           return flat(joint_force(view.parts(), joint, view.nodal().u, view.multipliers()));
+         }});
+  if (joints.empty()) return out;
+  out.push_back({{"joints.gap", Location::global, 1, "m", "Largest distance of joined points, and change of rods."},
+                 [](const View& view) {
+                   const auto constraints = make_joint_constraints(view.parts());
+                   Vector q(view.parts().dofs->num_dofs()), g(constraints->size());
+                   view.parts().dofs->restrict_to(view.nodal().u, q);
+                   constraints->values(view.nodal().time, q, g);
+                   return std::vector<double>{g.cwiseAbs().maxCoeff()};
+                 }});
+  return out;
+}
+
 std::vector<OutputInfo> FemModel::outputs() const {
   std::vector<OutputInfo> infos;
   for (const auto& output : all_outputs()) infos.push_back(output.info);
   for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
+  for (const auto& output : joint_outputs(parts_.joints)) infos.push_back(output.info);
   for (const FieldRegion& region : field_regions(parts_.elastic))
     for (OutputInfo info : region_fields()) {
       info.name = region.name + "." + info.name;

@@ -33,6 +33,8 @@ FemOutput find_output(const FemModel::Parts& parts, const std::string& name) {
     if (output.info.name == name) return output;
   for (const auto& output : reaction_outputs(parts.supports))
     if (output.info.name == name) return output;
+  for (const auto& output : joint_outputs(parts.joints))
+    if (output.info.name == name) return output;
   for (const FieldRegion& region : field_regions(parts.elastic)) {
     const std::string prefix = region.name + ".";
     if (!name.starts_with(prefix)) continue;
@@ -118,7 +120,8 @@ const std::vector<RegionMeshError>& FemStateView::mesh_errors() const {
 
 const NodalVector& FemStateView::support_forces() const {
   return once(support_forces_, [&] {
-    const NodalVector f = term_forces(parts_, nodal_);
+    NodalVector f = term_forces(parts_, nodal_);
+    if (lambda_.size() > 0) f += joint_forces(parts_, nodal_.u, lambda_);
     const NodalVector a = accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate;
     return held_part(*parts_.dofs, parts_.support_mass->times(a) - f);
   });

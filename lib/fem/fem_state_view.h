@@ -16,7 +16,7 @@ class FemStateView : public StateView {
  public:
   // `parts` must outlive this object.
   FemStateView(const FemModel::Parts& parts, const State& state)
-      : parts_(parts), z_(state.z), nodal_(parts, state.t, state.q, state.v, state.load_factor) {
+      : parts_(parts), z_(state.z), lambda_(state.lambda), nodal_(parts, state.t, state.q, state.v, state.load_factor) {
     if (z_.size() > 0) nodal_.internal = &internal_;
   }
   FemStateView(const FemStateView&) = delete;  // internal_ refers to z_
@@ -28,6 +28,7 @@ class FemStateView : public StateView {
   const FemModel::Parts& parts() const { return parts_; }
   const NodalExpansion& nodal() const { return nodal_; }
   NodalState state() const { return nodal_.state(); }
+  const Vector& multipliers() const { return lambda_; }  // empty without joints
 
   // Energy of all terms of one kind, J.
   double energy(EnergyKind kind) const;
@@ -52,7 +53,8 @@ class FemStateView : public StateView {
   const Vector& free_momentum() const;
 
   const FemModel::Parts& parts_;
-  Vector z_;  // internal variables
+  Vector z_;       // internal variables
+  Vector lambda_;  // multipliers of the joints
   InternalState internal_{InternalState::Kind::given, z_.data(), 0};
   NodalExpansion nodal_;
   mutable std::optional<double> kinetic_energy_;
@@ -79,6 +81,9 @@ const std::vector<FemOutput>& all_outputs();
 
 // Reaction force and torque of each support; `supports` must outlive the result.
 std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports);
+
+// The force of each joint, and the largest distance of points that should coincide; `joints` must outlive the result.
+std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints);
 
 // Outputs of stress and strain at the nodes of these parts (nodal_fields.h); NaN at other nodes.
 std::vector<FemOutput> nodal_outputs(const FieldParts& parts);

@@ -5,6 +5,13 @@
 namespace orthodyn {
 
 std::unique_ptr<Integrator> IntegratorChoice::make(const Model& model, const Task& task) const {
+  if (model.constraints()) {
+    if (!solves_constraints())
+      throw ConfigError(
+          "this method is not available with joints, whose motion is a system with constraints; use ida_bdf");
+    if (task.sensitivities)
+      throw ConfigError("sensitivities of motions are not available with joints; remove one of them");
+  }
   if (!model.internal_variables()) return make_for(model, task);
   if (task.sensitivities)
     throw ConfigError("sensitivities of motions are not available with viscoelastic materials; remove one of them");

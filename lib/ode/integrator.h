@@ -136,6 +136,9 @@ class IntegratorChoice {
 
   virtual InternalSupport internal_support() const { return InternalSupport::none; }
 
+  // True if the method integrates models with constraints (constraints.h).
+  virtual bool solves_constraints() const { return false; }
+
   // Throws ConfigError if the integrator does not accept the model. The model must outlive the integrator.
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const;
 

@@ -29,6 +29,7 @@ class InternalModel : public Model {
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
     internal_.force(t, q, v, internal_at(t), f);
   }
+  const Constraints* constraints() const override { return model_.constraints(); }
   const Pattern& pattern() const override { return model_.pattern(); }
   void combine(const Weights& w, const Linearization& at, double* values) const override {
     model_.combine(w, at, values);

@@ -74,6 +74,7 @@ class DiscreteGradient {
                           const ConstVectorRef& v, VectorRef f) const = 0;
 };
 
+class Constraints;        // lib/ode/constraints.h
 class InternalVariables;  // lib/ode/internal_variables.h
 
 class Model : public OutputSource {
@@ -96,6 +97,10 @@ class Model : public OutputSource {
   // The model's internal variables, which live as long as the model; null if there are none. The force and the
   // tangents of this interface are those of internal variables at equilibrium.
   virtual const InternalVariables* internal_variables() const { return nullptr; }
+
+  // The algebraic constraints of the motion, which live as long as the model; null if there are none. The force and the
+  // tangents of this interface do not contain the forces of the constraints.
+  virtual const Constraints* constraints() const { return nullptr; }
 
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;

@@ -18,6 +18,7 @@ struct State {
   Vector q, v;             // generalised positions and velocities
   double load_factor = 1;  // factor on the loads (Model::load_parts())
   Vector z = {};           // internal variables (internal_variables.h); empty: at equilibrium
+  Vector lambda = {};      // multipliers of the constraints (constraints.h), N; empty if unknown
 };
 
 enum class Location { node, cell, global };

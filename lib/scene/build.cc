@@ -235,6 +235,12 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.traits = traits_of(scene, regions);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
   if (subdomain) require_no_internal_variables(scene, regions);
+  for (const JointInput& joint : scene.joints) {
+    if (scene.start == Start::equilibrium)
+      joint.origin.fail("joints are not available with start: equilibrium; start at rest, and let loads rise slowly");
+    if (subdomain) joint.origin.fail("joints are not available on several ranks; run on one");
+    parts.joints.push_back(joint.on(parts.mesh));
+  }
   auto added = add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
   for (auto& term : added) {

@@ -91,6 +91,8 @@ const Spec<Scene>& Scene::spec() {
           .key("terms", &Scene::terms, "Further terms by type; docs/extend.md explains how to add your own.")
           .key("clamps", &Scene::clamps, "Fixed nodes.")
           .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
+          .key("joints", &Scene::joints,
+               "Connections of bodies by points that coincide or keep their distance; for ida_bdf.", {.with = kDynamic})
           .key("start", &Scene::start,
                "rest: from the rest shape. equilibrium: from the static equilibrium under the loads at the start.",
                {.with = kDynamic})

@@ -22,6 +22,7 @@
 #include "lib/scene/expectation.h"
 #include "lib/scene/harmonic.h"
 #include "lib/scene/initial.h"
+#include "lib/scene/joint_input.h"
 #include "lib/scene/output_files.h"
 #include "lib/scene/places.h"
 #include "lib/scene/region.h"
@@ -99,6 +100,7 @@ struct Scene {
   std::vector<std::shared_ptr<const TermChoice>> terms;
   std::vector<Clamp> clamps;
   std::vector<SupportMotion> motions;
+  std::vector<JointInput> joints;
   std::optional<Initial> initial;
   Start start = Start::rest;
   TimeSpan time;

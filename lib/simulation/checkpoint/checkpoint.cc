@@ -71,6 +71,7 @@ SortedJson to_json(const Checkpoint& c) {
           {"q", numbers(c.state.q)},
           {"v", numbers(c.state.v)},
           {"z", numbers(c.state.z)},
+          {"lambda", numbers(c.state.lambda)},
           {"last_output", c.last_output},
           {"last_history", c.last_history},
           {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
@@ -85,7 +86,8 @@ Checkpoint from_json(const SortedJson& json) {
   c.mesh = json.at("mesh");
   c.files = json.at("files").get<std::map<std::string, std::string>>();
   c.begun = json.at("begun");
-  c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v")), 1, vector(json.at("z"))};
+  c.state = {json.at("t"),         vector(json.at("q")),     vector(json.at("v")), 1,
+             vector(json.at("z")), vector(json.at("lambda"))};
   c.last_output = json.at("last_output");
   c.last_history = json.at("last_history");
   const auto& rhythm = json.at("rhythm");

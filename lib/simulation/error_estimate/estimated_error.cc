@@ -120,7 +120,8 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  return !model.ranks() && model.pattern().symmetric && FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
+  return !model.ranks() && !model.constraints() && model.pattern().symmetric &&
+         FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
 }
 
 StateMeshError estimate_mesh_error(const Scene& scene, const FemModel& model, const State& state, bool in_motion,

@@ -138,7 +138,7 @@ void check_ground(const CheckContext& context, Warnings& out) {
 }  // namespace
 
 bool is_free(const CheckContext& context) {
-  if (context.has_supports() || !context.scene.motions.empty()) return false;
+  if (context.has_supports() || !context.scene.motions.empty() || !context.scene.joints.empty()) return false;
   if (!context.config.has("terms")) return true;
   static const std::set<std::string> pushing{"point_load", "nodal_forces", "pressure"};
   const Config terms = context.config.at("terms");

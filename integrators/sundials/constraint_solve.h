@@ -1,0 +1,49 @@
+// The part of Newton's systems that belongs to constraints, for IDA on the stabilised equations of index 2
+//
+//     q' = v - G^T mu,   M v' = f - G^T lambda,   dg/dt(t, q, v) = 0,   g(t, q) = 0.
+//
+// Source: Gear, Gupta & Leimkuhler, J. Comput. Appl. Math. 12/13, 1985. The exact motion has mu = 0.
+//
+// Newton's system has the rows cj dq - dv + G^T dmu = b_q, (cj M + D) dv + K dq + G^T dlambda = b_v, G dv = b_1 and
+// G dq = b_2; derivatives of G are left out, as steps that resolve the motion make them small. With gamma = 1/cj,
+// A = M + gamma D + gamma^2 K, H = G G^T and S = G A^-1 G^T,
+//
+//     H dmu = b_1 + G b_q - b_2 / gamma,   r_q = gamma (b_q - G^T dmu),
+//     A dv0 = gamma (b_v - K r_q),   S (gamma dlambda) = G dv0 - b_1,
+//     dv = dv0 - A^-1 G^T (gamma dlambda),   dq = r_q + gamma dv.
+//
+// A keeps its size and its Cholesky factor; each set-up solves one more system for each constraint.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <functional>
+
+#include "lib/ode/constraints.h"
+
+namespace orthodyn::sundials {
+
+class ConstraintSolve {
+ public:
+  explicit ConstraintSolve(const Constraints& constraints) : constraints_(constraints) {}
+
+  // Computes G at a state.
+  void linearize(double t, const ConstVectorRef& q);
+  // Computes A^-1 G^T and S. solve(b, x): A x = b. False if S is not positive definite.
+  bool factor(const std::function<void(const Vector& b, Vector& x)>& solve);
+
+  // dmu, and r_q in place of gamma b_q.
+  void before(double gamma, const ConstVectorRef& b_1, const ConstVectorRef& b_2, VectorRef r_q, VectorRef dmu) const;
+  // dlambda, and dv and dq in place of dv0 and r_q + gamma dv0.
+  void after(double gamma, const ConstVectorRef& b_1, VectorRef dq, VectorRef dv, VectorRef dlambda) const;
+
+  std::size_t bytes() const;
+
+ private:
+  const Constraints& constraints_;
+  Eigen::SparseMatrix<double> G_;  // G^T
+  Eigen::LDLT<Eigen::MatrixXd> H_;
+  Eigen::MatrixXd Y_;  // A^-1 G^T
+  Eigen::LLT<Eigen::MatrixXd> S_;
+};
+
+}  // namespace orthodyn::sundials

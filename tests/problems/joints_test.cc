@@ -1,0 +1,135 @@
+// Motions with joints: pendulums with exact solutions, conservation, and the methods that are refused.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "lib/ode/constraints.h"
+#include "lib/simulation/output/balance.h"
+#include "tests/problems/running.h"
+
+namespace orthodyn::joint_motion_test {
+namespace {
+
+// A stiff block of 1 kg on a massless rod of 1 m, released at rest at 90 degrees: the force of the rod passes through
+// its centre, so it moves as a point does.
+std::string pendulum(const std::string& integrator) {
+  return fmt::format(R"(
+mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1, origin: [0.95, -0.05, -0.05]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e8, nu: 0.3}}}}
+gravity: [0, 0, -10]
+joints: [{{type: distance, name: rod, from: [1, 0, 0], to: [0, 0, 0], first: {{box: {{min: [0.9, -1, -1], max: [1.1, 1, 1]}}}}}}]
+time: {{end: 1.5}}
+integrator: {{{}}}
+)",
+                     integrator);
+}
+
+// Angle from the vertical and its rate by RK4 with many steps: th'' = -10 sin th.
+std::array<double, 2> exact_pendulum(double end) {
+  std::array<double, 2> y{std::acos(-1.0) / 2, 0};
+  const int steps = 20000;
+  const double h = end / steps;
+  const auto f = [](const std::array<double, 2>& x) { return std::array<double, 2>{x[1], -10 * std::sin(x[0])}; };
+  const auto plus = [](std::array<double, 2> a, double s, const std::array<double, 2>& b) {
+    return std::array<double, 2>{a[0] + s * b[0], a[1] + s * b[1]};
+  };
+  for (int k = 0; k < steps; ++k) {
+    const auto k1 = f(y), k2 = f(plus(y, h / 2, k1)), k3 = f(plus(y, h / 2, k2)), k4 = f(plus(y, h, k3));
+    for (std::size_t i = 0; i < 2; ++i) y[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+  }
+  return y;
+}
+
+struct Motion {
+  State last;
+  double gap = 0, drift = 0, steps = 0;  // largest gap, m; drift of the energy balance, J
+};
+
+Motion motion_of(const BuiltTestScene& s) {
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+  EnergyMeter meter(s.model(), *integrator);
+  Motion out;
+  Watch watch([&](const State& state) { out.gap = std::max(out.gap, s.model().evaluate("joints.gap", state)[0]); });
+  const Outcome outcome =
+      run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&meter, &watch}, {false});
+  EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+  out.last = outcome.last;
+  out.gap = std::max(out.gap, s.model().evaluate("joints.gap", outcome.last)[0]);
+  out.drift = meter.drift();
+  out.steps = static_cast<double>(integrator->statistics().steps);
+  return out;
+}
+
+Vec3 centre(const BuiltTestScene& s, const Vector& q) { return s.positions(q).rowwise().mean(); }
+
+TEST(Pendulum, OfARodHasTheExactMotionAndTension) {
+  const auto [angle, rate] = exact_pendulum(1.5);
+  const Vec3 exact(std::sin(angle), 0, -std::cos(angle));
+  const double tension = 10 * std::cos(angle) + rate * rate;
+  double last_error = 1;
+  for (const double rtol : {1e-4, 1e-6}) {
+    const BuiltTestScene s(pendulum(fmt::format("type: ida_bdf, rtol: {}", rtol)));
+    const Motion motion = motion_of(s);
+    const double error = (centre(s, motion.last.q) - exact).norm();
+    EXPECT_LE(error, 300 * rtol);
+    EXPECT_LE(error, 0.2 * last_error);
+    last_error = error;
+    EXPECT_LE(motion.gap, 10 * rtol);
+    const auto force = s.model().evaluate("joint.rod", motion.last);
+    EXPECT_NEAR(Vec3(force[0], force[1], force[2]).norm(), tension, 1000 * rtol * tension);
+    EXPECT_LE((Vec3(force[0], force[1], force[2]).normalized() + exact).norm(), 300 * rtol);
+  }
+}
+
+// Two free soft bars with a ball joint, thrown and spinning.
+TEST(Joints, KeepMomentumAndEnergy) {
+  const BuiltTestScene s(R"(
+mesh:
+  type: bodies
+  bodies:
+    a: {mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}}
+    b: {mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}, translation: [1, 0, 0]}
+materials: {m: {type: orthotropic_stable, density: 10, young: [4e4, 1e4, 2e4], nu: 0.3}}
+joints: [{type: ball, name: link, at: [1, 0.1, 0.1], first: {surface: a.x1}, second: {surface: b.x0}}]
+initial: {velocity: [1, 2, 3], velocity_field: ['-3*(y-0.1)', '4*abs(x-1)', 0]}
+damping: {stiffness: 1e-4}
+time: {end: 1}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)");
+  const Motion motion = motion_of(s);
+  const State& start = s.built.initial;
+  for (const char* kind : {"momentum.linear", "momentum.angular"}) {
+    const auto before = s.model().evaluate(kind, start), after = s.model().evaluate(kind, motion.last);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(after[c], before[c], 2e-5 * std::abs(before[2]) + 2e-5) << kind;
+  }
+  const double energy = s.model().evaluate("energy.kinetic", start)[0];
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * energy);
+  EXPECT_LE(motion.gap, 1e-5);
+  EXPECT_GE((centre(s, motion.last.q) - centre(s, start.q)).norm(), 1);
+}
+
+TEST(Joints, OtherMethodsAreRefusedByName) {
+  for (const char* type :
+       {"cvode_bdf", "newmark", "central_differences, step: auto", "arkode_dirk", "energy_momentum"}) {
+    const BuiltTestScene s(pendulum(std::string("type: ") + type));
+    try {
+      s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+      ADD_FAILURE() << type;
+    } catch (const ConfigError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr("use ida_bdf")) << type;
+    }
+  }
+}
+
+TEST(Joints, AutoChoosesIda) {
+  const BuiltTestScene s(pendulum("type: auto"));
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+  const auto decisions = integrator->decisions();
+  EXPECT_THAT(decisions, testing::Contains(testing::Pair("method", "ida_bdf")));
+}
+
+}  // namespace
+}  // namespace orthodyn::joint_motion_test
