@@ -20,7 +20,7 @@ struct NodalState {
   const NodalVector& x;                     // positions, m: rest positions X plus u
   const NodalVector& u;                     // m
   const NodalVector& v;                     // m/s
-  double load_factor = 1;                   // of statics: energies and stresses are those of the load times this factor
+  double load_factor = 1;                   // of statics: energies and stresses belong to the loads times this factor
   const InternalState* internal = nullptr;  // null: internal variables at equilibrium
 };
 

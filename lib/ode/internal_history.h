@@ -1,6 +1,6 @@
 // Fixed steps of methods that know no internal variables (internal_variables.h). The strains are taken to change at a
-// constant rate within a step, for which the internal variables have a closed form. The error is of order 2 in the
-// step, whatever the order of the method.
+// constant rate within a step, for which the internal variables have a closed form. The error of z is of order 2
+// in the step, also for methods of higher order.
 #pragma once
 
 #include <memory>

@@ -25,8 +25,9 @@ struct InternalState {
   // contains the change of z with q that an implicit step of this gamma has.
   double time = 0;
 
-  // dz/de of forces and energies, and that of tangents.
+  // The factor of e in z, for forces and energies: 0 if z is given.
   double share(double tau) const { return kind == Kind::given ? 0 : tangent_share(tau); }
+  // The derivative of z with respect to e, for tangents.
   double tangent_share(double tau) const {
     if (kind == Kind::relaxed) return 1;
     if (kind == Kind::branch) return tau == time ? 1 : 0;

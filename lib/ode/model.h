@@ -94,8 +94,8 @@ class Model : public OutputSource {
   // Computes f(t, q, v), N. Throws RecoverableError if f cannot be evaluated; a smaller step may help.
   virtual void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const = 0;
 
-  // The model's internal variables, which live as long as the model; null if there are none. The force and the
-  // tangents of this interface are those of internal variables at equilibrium.
+  // The model's internal variables, which live as long as the model; null if there are none. force(),
+  // linearize() and linearize_predicted() assume that the internal variables are at equilibrium.
   virtual const InternalVariables* internal_variables() const { return nullptr; }
 
   // The algebraic constraints of the motion, which live as long as the model; null if there are none. The force and the

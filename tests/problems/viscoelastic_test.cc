@@ -111,7 +111,8 @@ TEST(Viscoelastic, EnergyAccountIsClosed) {
     }
 }
 
-// A short vibration of a material that relaxes later: scales and tolerances are those of the stiffness at once.
+// If the run is much shorter than the relaxation time, the position scale is that of the unrelaxed stiffness; if it is
+// much longer, that of the relaxed one.
 TEST(Viscoelastic, ScalesAreThoseOfTheStiffnessDuringTheRun) {
   const auto scene = [](const std::string& more, double end) {
     return fmt::format(R"(

@@ -22,8 +22,9 @@ class AddedTerm : public Term {
   virtual bool scales_with_stiffness() const = 0;     // AddedLaw::scales_with_stiffness()
   virtual double volume(int k, int point) const = 0;  // m^3, at rest
 
-  // Internal variables of the term, for all its points (InternalVariables); none by default. `first`: index of the
-  // first among those of the model. Vectors are those of the model.
+  // The internal variables (InternalVariables) of all points of the term. num_internal() is 0 for laws that have none;
+  // the other functions are then not called. `first`: the index of the term's first variable in vectors of internal
+  // variables, which have the entries of all terms of the model.
   virtual Eigen::Index num_internal() const = 0;
   virtual void set_first_internal(Eigen::Index first) = 0;
   virtual void get_relaxation_times(Vector& times) const = 0;

@@ -110,8 +110,8 @@ Vector values_at(const Scene& scene, const FemModel& model, const std::vector<Pl
   return Eigen::Map<const Vector>(out.data(), std::ssize(out));
 }
 
-// The state `at`, with internal variables at equilibrium except those that relax with this time, which are those of
-// `about`.
+// The state `at` with its internal variables: those with the relaxation time `time` have the values of the state
+// `about`, all others are at equilibrium.
 State unrelaxed(const InternalVariables& internal, State at, const State& about, double time) {
   Vector before(internal.size());
   internal.strains(about.t, about.q, before);

@@ -65,7 +65,7 @@ void check_fixed_step(const Config& config, const FemModel& model, const StaticR
   if (!value || value->text() == "auto") return;
   const double step = read_number(*value, {.unit = "s"});
   const InternalVariables* internal = model.internal_variables();
-  if (internal && internal->relaxation_times().maxCoeff() > step) return;  // the steps may be those of a slow creep
+  if (internal && internal->relaxation_times().maxCoeff() > step) return;  // slow creep needs no short steps
   // Frequency (rad/s) of the vibration that the loads start, by the Rayleigh quotient of the static response.
   const double omega = std::sqrt(statics.work / mass_product(model, statics.displacement));
   const double period = 2 * std::numbers::pi / omega;
