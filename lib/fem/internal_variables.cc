@@ -35,6 +35,10 @@ class FemInternalVariables final : public InternalVariables {
     const NodalExpansion nodal = expansion(t, q, Vector::Zero(q.size()), nullptr);
     for (const AddedTerm* term : terms_) term->get_strains(nodal.state(), e);
   }
+  void total_strains(const ConstVectorRef& q, VectorRef e) const override {
+    const NodalExpansion nodal = expansion(0, q, Vector::Zero(q.size()), nullptr);
+    for (const AddedTerm* term : terms_) term->get_total_strains(nodal.state(), e);
+  }
   void strain_change(double t, const ConstVectorRef& q, const ConstVectorRef& dq, VectorRef de) const override {
     const NodalExpansion nodal = expansion(t, q, Vector::Zero(q.size()), nullptr);
     NodalVector du = NodalVector::Zero(3, nodal.x.cols());

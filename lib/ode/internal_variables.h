@@ -1,6 +1,7 @@
 // First-order unknowns z of a model beside its positions, such as viscoelastic strains:
 //     M q'' = f(t, q, v, z),   z_i' = (e_i(t, q) - z_i) / tau_i
-// with strains e and relaxation times tau. At fixed positions f is linear in z.
+// with strains e and relaxation times tau. At fixed t and q, f is linear in z. The strains e of bodies that swell are
+// those without the stress-free strain, which depends on t.
 //
 // Thread safety as for Model. z is dimensionless for a mechanical model. Strain vectors have size() entries.
 #pragma once
@@ -18,7 +19,8 @@ struct InternalState {
   // given: z is known. relaxed: z = e, its equilibrium. history: z at the end of an interval, over which e changes at a
   // constant rate; `values` then has the part of z that is known at the start (advance_of_history()).
   // branch: z = e for the relaxation time `time`, z = 0 for the others.
-  enum class Kind { given, relaxed, history, branch };
+  // change: z is a change of the variables, for the change of the force.
+  enum class Kind { given, relaxed, history, branch, change };
   Kind kind = Kind::relaxed;
   const double* values = nullptr;  // null for zero
   // s. history: the length of the interval. given: the gamma of Newton's method (integrators/reduced_solve.h); K then
@@ -26,7 +28,7 @@ struct InternalState {
   double time = 0;
 
   // The factor of e in z, for forces and energies: 0 if z is given.
-  double share(double tau) const { return kind == Kind::given ? 0 : tangent_share(tau); }
+  double share(double tau) const { return kind == Kind::given || kind == Kind::change ? 0 : tangent_share(tau); }
   // The derivative of z with respect to e, for tangents.
   double tangent_share(double tau) const {
     if (kind == Kind::relaxed) return 1;
@@ -53,6 +55,8 @@ class InternalVariables {
 
   // e, and its derivative de/dq dq.
   virtual void strains(double t, const ConstVectorRef& q, VectorRef e) const = 0;
+  // The strains without the part that depends on t: z of a body that has rested in the shape q before it swells.
+  virtual void total_strains(const ConstVectorRef& q, VectorRef e) const = 0;
   virtual void strain_change(double t, const ConstVectorRef& q, const ConstVectorRef& dq, VectorRef de) const = 0;
   // df/dz dz, N.
   virtual void force_change(double t, const ConstVectorRef& q, const Vector& dz, VectorRef df) const = 0;

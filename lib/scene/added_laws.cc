@@ -69,9 +69,9 @@ std::vector<std::unique_ptr<const AddedLaw>> added_laws(const Scene& scene, cons
     swellings.push_back(
         {cause.name, *cause.coefficients,
          cause.change->at_points(*part.type, mesh, cells, part.cells, scene.time.start, scene.time.end)});
-  if (!swellings.empty()) laws.push_back(make_swelling(stiffness, kinematics, std::move(swellings)));
-  if (const Viscoelasticity& branches = part.material->viscoelasticity(); !branches.empty())
-    laws.push_back(make_viscoelastic(stiffness, kinematics, branches));
+  const Viscoelasticity& branches = part.material->viscoelasticity();
+  if (!swellings.empty()) laws.push_back(make_swelling(relaxed_stiffness(branches, stiffness), kinematics, swellings));
+  if (!branches.empty()) laws.push_back(make_viscoelastic(stiffness, kinematics, branches, std::move(swellings)));
   return laws;
 }
 
@@ -103,15 +103,6 @@ void check_added_laws(const Config& config, const Scene& scene) {
   for (const auto& [name, region] : scene.regions)
     if (region.law == ElasticLaw::neo_hookean) check_neo_hookean(scene, region);
   check_fibres(config, scene);
-  for (const auto& [name, material] : scene.materials)
-    if (is_viscoelastic(*material) && swells(scene, *material))
-      config.at("materials")
-          .at(name)
-          .at("viscoelastic")
-          .fail(
-              "is not available for a material that swells by moisture or temperature: remove it, or the scene's "
-              "section "
-              "'moisture' or 'temperature'");
   if (scene.elasticity.corotation == Corotation::warped)
     for (const auto& [name, material] : scene.materials)
       if (is_viscoelastic(*material))

@@ -70,11 +70,13 @@ NodalVector initial_velocity(const Initial& initial, const FemModel::Parts& part
   return v;
 }
 
-// The body has rested in its initial shape: its internal variables are at equilibrium. Velocities fit the joints.
-State completed(State state, const FemModel& model) {
+// The body has rested in its initial shape, before its loads acted, or under them if `is_loaded`: its internal
+// variables are at equilibrium. Velocities fit the joints.
+State completed(State state, const FemModel& model, bool is_loaded) {
   if (const InternalVariables* internal = model.internal_variables()) {
     state.z.resize(internal->size());
-    internal->strains(state.t, state.q, state.z);
+    if (is_loaded) internal->strains(state.t, state.q, state.z);
+    else internal->total_strains(state.q, state.z);
   }
   start_consistently(model, state);
   return state;
@@ -85,7 +87,7 @@ State completed(State state, const FemModel& model) {
 State initial_state(const std::optional<Initial>& initial, double time, const FemModel& model) {
   const FemModel::Parts& parts = model.parts();
   State state{time, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs())};
-  if (!initial) return completed(std::move(state), model);
+  if (!initial) return completed(std::move(state), model, false);
   const Vec3 center = initial->center.value_or(center_of_mass(parts));
   const Mat3 F = initial->deformation_gradient.value_or(Mat3::Identity());
   NodalVector u = (F - Mat3::Identity()) * (parts.rest->colwise() - center);
@@ -94,17 +96,17 @@ State initial_state(const std::optional<Initial>& initial, double time, const Fe
   if (initial->noise) add_noise(*initial->noise, parts, u);
   parts.dofs->restrict_to(u, state.q);
   parts.dofs->restrict_to(initial_velocity(*initial, parts, u), state.v);
-  return completed(std::move(state), model);
+  return completed(std::move(state), model, false);
 }
 
 State initial_state_at(const Vector& q, const std::optional<Initial>& initial, double time, const FemModel& model) {
   State state{time, q, Vector::Zero(q.size())};
-  if (!initial) return completed(std::move(state), model);
+  if (!initial) return completed(std::move(state), model, true);
   const FemModel::Parts& parts = model.parts();
   NodalVector u = NodalVector::Zero(3, parts.rest->cols());
   parts.dofs->add_to(q, u);
   parts.dofs->restrict_to(initial_velocity(*initial, parts, u), state.v);
-  return completed(std::move(state), model);
+  return completed(std::move(state), model, true);
 }
 
 }  // namespace orthodyn

@@ -57,17 +57,24 @@ struct PointInternals {
   InternalState state;
   Eigen::Index first = 0;  // of the law's variables among those of the model
   int elements = 0;
+  int points = 1;  // of an element
 };
 
-// A law with internal variables.
+// A law with internal variables, at one time.
+class InternalLawAt : public AddedLawAt {
+ public:
+  // The strain to which all variables of a point tend, the same without stress-free strains, and their derivative for a
+  // change dH Q of H Q.
+  virtual Vec6T<Batch> strain(const LawPoint& at) const = 0;
+  virtual Vec6T<Batch> total_strain(const LawPoint& at) const = 0;
+  virtual Vec6T<Batch> strain_change(const LawPoint& at, const Mat3T<Batch>& dH) const = 0;
+};
+
 class InternalLaw {
  public:
   virtual ~InternalLaw() = default;
   virtual std::vector<double> relaxation_times() const = 0;  // s
-  virtual std::shared_ptr<const AddedLawAt> at(const PointInternals& internals, int points_of_element) const = 0;
-  // The strain to which all variables of a point tend, and its derivative for a change dH Q of H Q.
-  virtual Vec6T<Batch> strain(const LawPoint& at) const = 0;
-  virtual Vec6T<Batch> strain_change(const LawPoint& at, const Mat3T<Batch>& dH) const = 0;
+  virtual std::shared_ptr<const InternalLawAt> at(double t, const PointInternals& internals) const = 0;
 };
 
 class AddedLaw {

@@ -14,66 +14,46 @@ namespace {
 struct Constants {
   Mat3 stiffness;  // C11, C12, ...: normal stresses of normal strains, Pa
   Mat3 shear;      // shear stresses 12, 23, 31 of normal strains, Pa; zero for orthotropic materials
-  std::vector<Vec3> coefficients;
 
-  Constants(const Mat6& C, const std::vector<Swelling>& causes)
-      : stiffness(C.topLeftCorner<3, 3>()), shear(C.bottomLeftCorner<3, 3>()) {
-    for (const Swelling& cause : causes) coefficients.push_back(cause.coefficients);
-  }
+  explicit Constants(const Mat6& C) : stiffness(C.topLeftCorner<3, 3>()), shear(C.bottomLeftCorner<3, 3>()) {}
 };
-
-using Changes = std::vector<std::shared_ptr<const PointValues::At>>;  // parallel to Constants::coefficients
 
 class SwellingAt : public AddedLawAt {
  public:
-  SwellingAt(const Constants& constants, bool is_linear, Changes changes, double load_factor)
-      : constants_(constants), is_linear_(is_linear), changes_(std::move(changes)), load_factor_(load_factor) {}
+  SwellingAt(const Constants& constants, bool is_linear, StressFreeStrain free)
+      : constants_(constants), is_linear_(is_linear), free_(std::move(free)) {}
 
   Mat3T<Batch> stress(const LawPoint& at, const Mat3T<Batch>*) const override {
-    const Mat3T<Batch> s = stress_of(strain(at));
+    const Mat3T<Batch> s = stress_of(free_.strain(at.index));
     return is_linear_ ? Mat3T<Batch>(-at.Q * s) : swelling_stress(at.H, at.Q, s);
   }
 
   void add_moduli(const LawPoint& at, const Mat3T<Batch>*, TangentKind kind, Mat9T<Batch>& K,
                   Mat9T<Batch>*) const override {
-    if (!is_linear_ && kind == TangentKind::exact) add_swelling_moduli(at.H, at.Q, stress_of(strain(at)), K);
+    if (!is_linear_ && kind == TangentKind::exact)
+      add_swelling_moduli(at.H, at.Q, stress_of(free_.strain(at.index)), K);
   }
 
   Mat3T<Batch> mean_stress(const LawPoint& at0, const LawPoint& at1) const override {
     if (is_linear_) return stress(at0, nullptr);
-    return mean_swelling_stress(at0.H, at1.H, at0.Q, stress_of(strain(at0)));
+    return mean_swelling_stress(at0.H, at1.H, at0.Q, stress_of(free_.strain(at0.index)));
   }
 
   Batch energy(const LawPoint& at) const override {
-    const Vec3T<Batch> e = strain(at);
+    const Vec3T<Batch> e = free_.strain(at.index);
     const Mat3T<Batch> s = stress_of(e);
     return energy_of(at, s) + Batch(0.5) * product(e, s);
   }
 
   // The rate of the energy for the rate of e*.
   Batch power(const LawPoint& at, const Mat3T<Batch>&) const override {
-    const Mat3T<Batch> s = stress_of(strain_rate(at));
-    return energy_of(at, s) + product(strain(at), s);
+    const Mat3T<Batch> s = stress_of(free_.rate(at.index));
+    return energy_of(at, s) + product(free_.strain(at.index), s);
   }
 
-  Mat3T<Batch> turned_stress(const LawPoint& at) const override { return -stress_of(strain(at)); }
+  Mat3T<Batch> turned_stress(const LawPoint& at) const override { return -stress_of(free_.strain(at.index)); }
 
  private:
-  // e* and its rate (1/s), normal strains along the material axes.
-  Vec3T<Batch> strain(const LawPoint& at) const {
-    return sum([&](std::size_t k) { return changes_[k]->value[at.index]; });
-  }
-  Vec3T<Batch> strain_rate(const LawPoint& at) const {
-    return sum([&](std::size_t k) { return changes_[k]->rate[at.index]; });
-  }
-  template <class ChangeOf>
-  Vec3T<Batch> sum(ChangeOf&& change_of) const {
-    Vec3T<Batch> e = Vec3T<Batch>::Zero();
-    for (std::size_t k = 0; k < changes_.size(); ++k)
-      e += (load_factor_ * change_of(k)) * constants_.coefficients[k].cast<Batch>();
-    return e;
-  }
-
   // C:e* for normal strains e*.
   Mat3T<Batch> stress_of(const Vec3T<Batch>& e) const {
     const Vec3T<Batch> n = constants_.stiffness.cast<Batch>() * e, t = constants_.shear.cast<Batch>() * e;
@@ -92,8 +72,7 @@ class SwellingAt : public AddedLawAt {
 
   const Constants& constants_;
   bool is_linear_;
-  Changes changes_;
-  Batch load_factor_;
+  StressFreeStrain free_;
 };
 
 class SwellingLaw : public AddedLaw {
@@ -121,7 +100,7 @@ class SwellingLaw : public AddedLaw {
     return all;
   }
   std::shared_ptr<const AddedLawAt> at(double t, double load_factor) const override {
-    return of_changes([&](const PointValues& change) { return change.at(t); }, load_factor);
+    return of(StressFreeStrain::at(causes_, t, load_factor));
   }
   std::unique_ptr<AddedLaw> corotational() const override {
     return std::make_unique<SwellingLaw>(constants_, false, causes_);
@@ -129,7 +108,7 @@ class SwellingLaw : public AddedLaw {
 
   bool is_load() const override { return true; }
   std::shared_ptr<const AddedLawAt> at_peak(double start, double end) const override {
-    return of_changes([&](const PointValues& change) { return change.at_peak(start, end); }, 1);
+    return of({causes_, [&](const PointValues& change) { return change.at_peak(start, end); }});
   }
   double seconds_at_peak(double start, double end) const override {
     double longest = 0;
@@ -139,9 +118,7 @@ class SwellingLaw : public AddedLaw {
 
   bool scales_with_stiffness() const override { return true; }
   bool has_energy() const override { return true; }
-  bool depends_on_time() const override {
-    return std::any_of(causes_.begin(), causes_.end(), [](const Swelling& cause) { return !cause.change->constant(); });
-  }
+  bool depends_on_time() const override { return !are_constant(causes_); }
   bool is_dead() const override { return is_linear_; }
 
   std::vector<double> breakpoints(double start, double end) const override {
@@ -157,11 +134,8 @@ class SwellingLaw : public AddedLaw {
   }
 
  private:
-  template <class AtOf>
-  std::shared_ptr<const AddedLawAt> of_changes(AtOf&& at_of, double load_factor) const {
-    Changes changes;
-    for (const Swelling& cause : causes_) changes.push_back(at_of(*cause.change));
-    return std::make_shared<SwellingAt>(constants_, is_linear_, std::move(changes), load_factor);
+  std::shared_ptr<const AddedLawAt> of(StressFreeStrain free) const {
+    return std::make_shared<SwellingAt>(constants_, is_linear_, std::move(free));
   }
 
   Constants constants_;
@@ -172,8 +146,7 @@ class SwellingLaw : public AddedLaw {
 }  // namespace
 
 std::unique_ptr<AddedLaw> make_swelling(const Mat6& stiffness, Kinematics kinematics, std::vector<Swelling> causes) {
-  const Constants constants(stiffness, causes);
-  return std::make_unique<SwellingLaw>(constants, kinematics == Kinematics::linear, std::move(causes));
+  return std::make_unique<SwellingLaw>(Constants(stiffness), kinematics == Kinematics::linear, std::move(causes));
 }
 
 }  // namespace orthodyn

@@ -29,10 +29,10 @@ Mat3T<Batch> strain_of(const LawPoint& at, bool is_linear) {
   return is_linear ? small_strain<Batch>(at.H, at.Q) : turned_strain(at.H, at.Q);
 }
 
-class ViscoelasticAt : public AddedLawAt {
+class ViscoelasticAt : public InternalLawAt {
  public:
-  ViscoelasticAt(const Branches& branches, bool is_linear, const PointInternals& internals, int points_of_element)
-      : branches_(branches), is_linear_(is_linear), internals_(internals), points_(points_of_element) {
+  ViscoelasticAt(const Branches& branches, bool is_linear, StressFreeStrain free, const PointInternals& internals)
+      : branches_(branches), is_linear_(is_linear), free_(std::move(free)), internals_(internals) {
     for (const Branch& branch : branches_) shares_.push_back(internals.state.share(branch.time));
   }
 
@@ -60,19 +60,28 @@ class ViscoelasticAt : public AddedLawAt {
   Batch energy(const LawPoint& at) const override {
     const Mat3T<Batch> s = relaxed_stress(at);
     Batch energy = is_linear_ ? -contract<Batch>(s, small_strain<Batch>(at.H, at.Q)) : swelling_energy(at.H, at.Q, s);
-    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& z) {
-      energy += Batch(0.5) * contract<Batch>(branch.C.stress(z), z);
+    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) {
+      energy += Batch(0.5) * contract<Batch>(branch.C.stress(y), y);
     });
     return energy;
   }
 
-  Batch power(const LawPoint&, const Mat3T<Batch>&) const override { return Batch(0); }
+  // The rate of the energy for the rate of e*.
+  Batch power(const LawPoint& at, const Mat3T<Batch>&) const override {
+    Batch sum(0);
+    if (free_.is_zero()) return sum;
+    const Mat3T<Batch> e = strain_of(at, is_linear_), rate = free_.rate(at.index).asDiagonal();
+    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) {
+      sum -= contract<Batch>(branch.C.stress(Mat3T<Batch>(e - y)), rate);
+    });
+    return sum;
+  }
 
   Batch dissipation(const LawPoint& at, const Mat3T<Batch>&) const override {
     const Mat3T<Batch> e = strain_of(at, is_linear_);
     Batch sum(0);
-    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& z) {
-      const Mat3T<Batch> rest = e - z;
+    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) {
+      const Mat3T<Batch> rest = e - y;
       sum += Batch(1 / branch.time) * contract<Batch>(branch.C.stress(rest), rest);
     });
     return sum;
@@ -80,30 +89,46 @@ class ViscoelasticAt : public AddedLawAt {
 
   Mat3T<Batch> turned_stress(const LawPoint& at) const override { return -relaxed_stress(at); }
 
+  Vec6T<Batch> strain(const LawPoint& at) const override {
+    Vec6T<Batch> e = total_strain(at);
+    if (!free_.is_zero()) e.head<3>() -= free_.strain(at.index);
+    return e;
+  }
+  Vec6T<Batch> total_strain(const LawPoint& at) const override {
+    return voigt_strain<Batch>(strain_of(at, is_linear_));
+  }
+  Vec6T<Batch> strain_change(const LawPoint& at, const Mat3T<Batch>& dH) const override {
+    return voigt_strain<Batch>(is_linear_ ? small_strain<Batch>(dH, at.Q) : turned_strain_change(at.H, at.Q, dH));
+  }
+
  private:
-  // visit(branch, z) for all branches.
+  // visit(branch, y) for all branches.
   template <class Visit>
   void for_each_branch(const LawPoint& at, Visit&& visit) const {
     bool is_needed = false;
     for (const double share : shares_) is_needed = is_needed || share != 0;
     const Mat3T<Batch> e = is_needed ? strain_of(at, is_linear_) : Mat3T<Batch>(Mat3T<Batch>::Zero());
+    const bool has_free = !free_.is_zero() && internals_.state.kind != InternalState::Kind::change;
+    const Vec3T<Batch> free = has_free ? free_.strain(at.index) : Vec3T<Batch>(Vec3T<Batch>::Zero());
     for (std::size_t i = 0; i < branches_.size(); ++i) {
-      const Mat3T<Batch> z = Batch(shares_[i]) * e + values(at.index, i);
-      visit(branches_[i], z);
+      Mat3T<Batch> y = Batch(shares_[i]) * e + values(at.index, i);
+      if (has_free) y.diagonal() += Batch(1 - shares_[i]) * free;
+      visit(branches_[i], y);
     }
   }
 
-  // sum_i C_i:z_i, Pa.
+  // sum_i C_i:y_i, Pa.
   Mat3T<Batch> relaxed_stress(const LawPoint& at) const {
     Mat3T<Batch> s = Mat3T<Batch>::Zero();
-    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& z) { s += branch.C.stress(z); });
+    for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) { s += branch.C.stress(y); });
     return s;
   }
 
   // InternalState::values of a branch at a point. The lanes after the last element are zero.
   Mat3T<Batch> values(std::size_t index, std::size_t branch) const {
     if (!internals_.state.values) return Mat3T<Batch>::Zero();
-    const auto batch = static_cast<int>(index) / points_, point = static_cast<int>(index) % points_;
+    const int points = internals_.points;
+    const auto batch = static_cast<int>(index) / points, point = static_cast<int>(index) % points;
     const double* const all = internals_.state.values + internals_.first;
     double lanes[6][Batch::kLanes] = {};
     for (int l = 0; l < Batch::kLanes; ++l) {
@@ -111,7 +136,7 @@ class ViscoelasticAt : public AddedLawAt {
       if (k >= internals_.elements) break;
       const double* const own =
           all +
-          6 * ((static_cast<std::size_t>(k) * static_cast<std::size_t>(points_) + static_cast<std::size_t>(point)) *
+          6 * ((static_cast<std::size_t>(k) * static_cast<std::size_t>(points) + static_cast<std::size_t>(point)) *
                    branches_.size() +
                branch);
       for (int i = 0; i < 6; ++i) lanes[i][l] = own[i];
@@ -123,26 +148,26 @@ class ViscoelasticAt : public AddedLawAt {
 
   const Branches& branches_;
   bool is_linear_;
+  StressFreeStrain free_;
   PointInternals internals_;
-  int points_;  // of an element
   std::vector<double> shares_;
 };
 
 class Viscoelastic : public AddedLaw, public InternalLaw {
  public:
-  Viscoelastic(Branches branches, bool is_linear, std::string shares)
-      : branches_(std::move(branches)), is_linear_(is_linear), shares_(std::move(shares)) {}
+  Viscoelastic(Branches branches, bool is_linear, std::vector<Swelling> causes, std::string shares)
+      : branches_(std::move(branches)), is_linear_(is_linear), causes_(std::move(causes)), shares_(std::move(shares)) {}
 
   std::string name() const override { return "viscoelasticity"; }
   std::string description() const override { return name() + ": " + shares_; }
   std::size_t bytes() const override { return branches_.size() * sizeof(Branch); }
   // At equilibrium.
-  std::shared_ptr<const AddedLawAt> at(double, double) const override { return at(PointInternals{}, 1); }
-  std::shared_ptr<const AddedLawAt> at(const PointInternals& internals, int points_of_element) const override {
-    return std::make_shared<ViscoelasticAt>(branches_, is_linear_, internals, points_of_element);
+  std::shared_ptr<const AddedLawAt> at(double t, double) const override { return at(t, PointInternals{}); }
+  std::shared_ptr<const InternalLawAt> at(double t, const PointInternals& internals) const override {
+    return std::make_shared<ViscoelasticAt>(branches_, is_linear_, StressFreeStrain::at(causes_, t), internals);
   }
   std::unique_ptr<AddedLaw> corotational() const override {
-    return std::make_unique<Viscoelastic>(branches_, false, shares_);
+    return std::make_unique<Viscoelastic>(branches_, false, causes_, shares_);
   }
 
   bool is_load() const override { return false; }
@@ -151,7 +176,7 @@ class Viscoelastic : public AddedLaw, public InternalLaw {
   bool scales_with_stiffness() const override { return true; }
   bool has_energy() const override { return true; }
   bool dissipates() const override { return true; }
-  bool depends_on_time() const override { return false; }
+  bool depends_on_time() const override { return !are_constant(causes_); }
   bool is_dead() const override { return false; }
   const InternalLaw* internal() const override { return this; }
 
@@ -160,21 +185,18 @@ class Viscoelastic : public AddedLaw, public InternalLaw {
     for (const Branch& branch : branches_) times.push_back(branch.time);
     return times;
   }
-  Vec6T<Batch> strain(const LawPoint& at) const override { return voigt_strain<Batch>(strain_of(at, is_linear_)); }
-  Vec6T<Batch> strain_change(const LawPoint& at, const Mat3T<Batch>& dH) const override {
-    return voigt_strain<Batch>(is_linear_ ? small_strain<Batch>(dH, at.Q) : turned_strain_change(at.H, at.Q, dH));
-  }
 
  private:
   Branches branches_;
   bool is_linear_;
-  std::string shares_;  // for description()
+  std::vector<Swelling> causes_;  // also those of the swelling law, with its kinks and step limits
+  std::string shares_;            // for description()
 };
 
 }  // namespace
 
 std::unique_ptr<AddedLaw> make_viscoelastic(const Mat6& stiffness, Kinematics kinematics,
-                                            const Viscoelasticity& branches) {
+                                            const Viscoelasticity& branches, std::vector<Swelling> causes) {
   Branches all;
   std::string shares;
   for (const PronyBranch& branch : branches) {
@@ -183,7 +205,8 @@ std::unique_ptr<AddedLaw> make_viscoelastic(const Mat6& stiffness, Kinematics ki
     shares += fmt::format("{}{:.3g} % of the stiffness with {:.4g} s", shares.empty() ? "" : ", ",
                           100 * C.trace() / stiffness.trace(), branch.time);
   }
-  return std::make_unique<Viscoelastic>(std::move(all), kinematics == Kinematics::linear, std::move(shares));
+  return std::make_unique<Viscoelastic>(std::move(all), kinematics == Kinematics::linear, std::move(causes),
+                                        std::move(shares));
 }
 
 }  // namespace orthodyn

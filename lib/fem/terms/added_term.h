@@ -29,6 +29,7 @@ class AddedTerm : public Term {
   virtual void set_first_internal(Eigen::Index first) = 0;
   virtual void get_relaxation_times(Vector& times) const = 0;
   virtual void get_strains(const NodalState& s, VectorRef strains) const = 0;
+  virtual void get_total_strains(const NodalState& s, VectorRef strains) const = 0;
   virtual void get_strain_change(const NodalState& s, const NodalVector& du, VectorRef change) const = 0;
   // Adds the change of the force for a change of the internal variables.
   virtual void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const = 0;

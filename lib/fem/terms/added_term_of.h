@@ -136,16 +136,21 @@ class AddedTermOf final : public AddedTerm {
     });
   }
   void get_strains(const NodalState& s, VectorRef strains) const override {
-    for_each_strain(s, strains, [&](int, int, const PointState& at) { return law_->internal()->strain(at.point()); });
+    const auto law = internal_law_at(s.t, {});
+    for_each_strain(s, strains, [&](int, int, const PointState& at) { return law->strain(at.point()); });
+  }
+  void get_total_strains(const NodalState& s, VectorRef strains) const override {
+    const auto law = internal_law_at(s.t, {});
+    for_each_strain(s, strains, [&](int, int, const PointState& at) { return law->total_strain(at.point()); });
   }
   void get_strain_change(const NodalState& s, const NodalVector& du, VectorRef change) const override {
+    const auto law = internal_law_at(s.t, {});
     for_each_strain(s, change, [&](int b, int p, const PointState& at) {
-      return law_->internal()->strain_change(at.point(), elements_.gradients(b, p, elements_.differences(b, du)));
+      return law->strain_change(at.point(), elements_.gradients(b, p, elements_.differences(b, du)));
     });
   }
   void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const override {
-    const InternalState state{InternalState::Kind::given, change.data(), 0};
-    add_force_of(*law_->internal()->at({state, first_internal_, elements_.size()}, elements_.num_points()), s, f);
+    add_force_of(*internal_law_at(s.t, {InternalState::Kind::change, change.data(), 0}), s, f);
   }
 
   std::unique_ptr<AddedTerm> corotational(const ElementMesh& mesh, const BlockPattern& pattern) const override {
@@ -184,10 +189,11 @@ class AddedTermOf final : public AddedTerm {
   };
 
   std::shared_ptr<const AddedLawAt> law_at(const NodalState& s, double load_factor = 1) const {
-    const InternalLaw* internal = law_->internal();
-    if (!internal) return law_->at(s.t, load_factor);
-    return internal->at({s.internal ? *s.internal : InternalState{}, first_internal_, elements_.size()},
-                        elements_.num_points());
+    if (!law_->internal()) return law_->at(s.t, load_factor);
+    return internal_law_at(s.t, s.internal ? *s.internal : InternalState{});
+  }
+  std::shared_ptr<const InternalLawAt> internal_law_at(double t, const InternalState& state) const {
+    return law_->internal()->at(t, {state, first_internal_, elements_.size(), elements_.num_points()});
   }
 
   int num_internal_of_element() const {
