@@ -115,7 +115,7 @@ def main():
                                                          0.064 * spruce, 0.003 * spruce, 0.061 * spruce), 1),
         "fibres 10:1, along (1)": (stable([10, 1, 1], 0.3), 0),
         "fibres 10:1, across (2)": (stable([10, 1, 1], 0.3), 1),
-        "muscle, along (1), see configs/scenes/muscle.yaml": (MUSCLE, 0),
+        "fibres 20:1 with the moduli of muscle, along (1)": (MUSCLE, 0),
         "isotropic, nu 0.3": (stable([1, 1, 1], 0.3), 0),
     }
     print("| material, axis | " + " | ".join(LAWS) + " |\n|" + "---|" * (len(LAWS) + 1))
