@@ -37,11 +37,13 @@ void print_term_costs(const Setup& setup, const std::vector<TermCost>& costs) {
 std::string shown_steps(const RunCost& cost) {
   const char* const early = cost.may_end_early ? "; an event may end the run early" : "";
   if (cost.fixed_steps) return fmt::format("{:.0f}, fixed{}", cost.steps.most, early);
+  if (cost.may_creep)
+    return fmt::format("about {:.0f} without vibrations, {:.2g} with vibrations that last{}", cost.steps.least,
+                       cost.steps.most, early);
   return fmt::format("{:.0f} to {:.0f}, adaptive: {}{}", cost.steps.least, cost.steps.most,
                      cost.has_contact
                          ? "small during contact with the ground; the number of contacts is not known in advance"
-                     : cost.may_creep ? "few if the loads start no vibration, as with slow loads and relaxation"
-                                      : "accurate to an order of magnitude",
+                         : "accurate to an order of magnitude",
                      early);
 }
 
@@ -64,7 +66,10 @@ void print_time(const Setup& setup, const RunCost& cost) {
     fmt::print("  of {} each\n", shown_seconds(cost.step));
     fmt::print("  outputs {}\n", shown_outputs(cost));
   }
-  fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
+  const CostRange all = cost.seconds();
+  if (cost.may_creep)
+    fmt::print("  in all {:.2g} s without vibrations, {:.2g} s with vibrations that last\n", all.least, all.most);
+  else fmt::print("  in all {}\n", shown_seconds(all));
 }
 
 void print_faster(const Setup& setup, const RunCost& cost) {
