@@ -132,6 +132,16 @@ class APage(OfAResult):
         self.assertIn("r0/det_f/2", blocks)  # the last frame, though it is none of the second ones
         self.assertNotIn("r0/det_f/3", blocks)
 
+    def test_has_the_curves_of_all_tables(self):
+        name = "d tip.displacement.z / d materials.m.young"
+        (self.result / "sensitivities.csv").write_text(f"t [s],{name} [m / SI unit]\n0,0\n1,-2e-9\n")
+        text = self.page()
+        described = json.loads(re.search(r'id="description">(.*?)</script>', text).group(1))
+        curves = described["results"][0]["curves"]
+        self.assertEqual({curve["table"] for curve in curves}, {"probes", "energy", "momentum", "sensitivities"})
+        self.assertIn({"table": "sensitivities", "column": 1, "name": name, "unit": "m / SI unit"}, curves)
+        np.testing.assert_allclose(values_of(unpacked(text)["r0/sensitivities.csv"]), [[0, 0], [1, -2e-9]])
+
     def test_shows_where_the_body_is_held_and_loaded(self):
         held, load = np.zeros((5, 3)), np.zeros((5, 3))
         held[1], load[4, 2] = 1, -3

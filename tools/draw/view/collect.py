@@ -14,7 +14,7 @@ from .strokes import strokes
 
 MOST_ROWS = 20000  # largest number of rows of a table
 SAMPLED = 24  # number of frames of which all values enter a field's colour range; of other frames only the extremes do
-TABLES = ("probes", "energy", "momentum")
+TABLES = ("probes", "energy", "momentum", "sensitivities")
 NOTES = ("status", "warnings")
 
 
