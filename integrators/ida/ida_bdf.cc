@@ -9,6 +9,7 @@
 #include "integrators/sundials/bdf_order.h"
 #include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/sundials_integrator.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn::sundials {
 namespace {
@@ -114,50 +115,23 @@ class IdaBdf final : public SundialsIntegrator {
     }
   }
 
-  // Sets q' = v and v' = M^-1 f, so that the initial values satisfy F = 0.
+  // Sets q' = v and v' = M^-1 f, so that the initial values satisfy F = 0. With constraints, removes the velocities
+  // that violate them, as round-off and kinks of loads leave them, and sets lambda, mu = 0, and the accelerations with
+  // the forces of the constraints.
   void make_consistent(double t) {
-    positions(y_dot_.get(), extra()) = velocities(y(), extra());
-    if (model_.constraints()) fit_velocities(t);
-    initial_acceleration(model_, t, velocities(y_dot_.get(), extra()));
-    if (model_.constraints()) find_multipliers(t);
-    evaluate_internal_rates(t, y(), y_dot_.get());
-  }
-
-  // G and M^-1 G^T at y, and the factor of G M^-1 G^T.
-  struct AtStart {
-    Eigen::SparseMatrix<double> G;
-    Eigen::MatrixXd W;
-    Eigen::LDLT<Eigen::MatrixXd> H;
-  };
-  AtStart constraints_at_start(double t) {
-    AtStart at{model_.constraints()->jacobian(t, positions(y(), extra())), {}, {}};
-    at.W = at.G;
-    for (Eigen::Index k = 0; k < at.W.cols(); ++k) model_.solve_mass(at.W.col(k));
-    at.H.compute(at.G.transpose() * at.W);
-    return at;
-  }
-
-  // Removes the velocities that violate the constraints, as round-off and loads' kinks leave them.
-  void fit_velocities(double t) {
-    const AtStart at = constraints_at_start(t);
-    Vector rates(extra().constraints);
-    auto v = velocities(y(), extra());
-    model_.constraints()->rates(t, positions(y(), extra()), v, rates);
-    v -= at.W * at.H.solve(rates);
+    auto v = velocities(y(), extra()), a = velocities(y_dot_.get(), extra());
+    std::optional<ConstraintsAt> at;
+    if (model_.constraints()) at.emplace(model_, t, positions(y(), extra()));
+    if (at) at->fit(v);
     positions(y_dot_.get(), extra()) = v;
-  }
-
-  // Sets lambda, mu = 0, and the accelerations with the forces of the constraints.
-  void find_multipliers(double t) {
-    const AtStart at = constraints_at_start(t);
-    auto a = velocities(y_dot_.get(), extra());
-    Vector curvature(extra().constraints);
-    model_.constraints()->curvature(t, positions(y(), extra()), velocities(y(), extra()), curvature);
-    velocity_multipliers(y(), extra()) = at.H.solve(at.G.transpose() * a + curvature);
-    position_multipliers(y(), extra()).setZero();
-    a -= at.W * velocity_multipliers(y(), extra());
-    velocity_multipliers(y_dot_.get(), extra()).setZero();
-    position_multipliers(y_dot_.get(), extra()).setZero();
+    initial_acceleration(model_, t, a);
+    if (at) {
+      velocity_multipliers(y(), extra()) = at->multipliers(v, a);
+      position_multipliers(y(), extra()).setZero();
+      velocity_multipliers(y_dot_.get(), extra()).setZero();
+      position_multipliers(y_dot_.get(), extra()).setZero();
+    }
+    evaluate_internal_rates(t, y(), y_dot_.get());
   }
 
   // Multipliers have no derivatives in the equations.

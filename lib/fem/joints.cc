@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "lib/fem/fem_model.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
 
@@ -183,10 +183,8 @@ void start_consistently(const FemModel& model, State& state) {
                       fmt::format("{}: the points are {:.3g} m apart at the start; the initial displacement must "
                                   "keep joints together",
                                   constraints->name(static_cast<int>(worst)), apart));
-  const Eigen::SparseMatrix<double> G = constraints->jacobian(state.t, state.q);
-  Eigen::MatrixXd W = G;  // M^-1 G^T
-  for (int k = 0; k < m; ++k) model.solve_mass(W.col(k));
-  const Eigen::MatrixXd H = G.transpose() * W;
+  const ConstraintsAt at(model, state.t, state.q);
+  const Eigen::MatrixXd& H = at.matrix();
   const Vector scale = H.diagonal().cwiseSqrt().cwiseInverse();
   for (int k = 0; k < m; ++k)
     if (!std::isfinite(scale[k]))
@@ -199,15 +197,11 @@ void start_consistently(const FemModel& model, State& state) {
     throw ConfigError("joints", fmt::format("{} is already held by the other joints and clamps: remove one of them",
                                             constraints->name(static_cast<int>(of))));
   }
-  const Eigen::LDLT<Eigen::MatrixXd> solver(H);
-  Vector rates(m), curvature(m);
-  constraints->rates(state.t, state.q, state.v, rates);
-  state.v -= W * solver.solve(rates);
+  at.fit(state.v);
   Vector a(state.q.size());
   model.force(state.t, state.q, state.v, a);
   model.solve_mass(a);
-  constraints->curvature(state.t, state.q, state.v, curvature);
-  state.lambda = solver.solve(G.transpose() * a + curvature);
+  state.lambda = at.multipliers(state.v, a);
 }
 
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts) {
