@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/fem/fem_model.h"
+#include "lib/ode/derived_model.h"
 
 namespace orthodyn {
 
@@ -35,10 +36,11 @@ std::vector<std::string> part_names(const FemModel::Parts& parts) {
 
 namespace {
 
-class PartModel : public Model {
+class PartModel : public DerivedModel {
  public:
   // `names` are names from part_names(). `whole` must outlive this object.
-  PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole), traits_(whole.traits()) {
+  PartModel(const FemModel& whole, const std::vector<std::string>& names)
+      : DerivedModel(whole), whole_(whole), traits_(whole.traits()) {
     const auto terms = all_terms(whole.parts());
     const auto known = term_names(terms);
     const auto wanted = [&](const std::string& name) {
@@ -53,10 +55,6 @@ class PartModel : public Model {
     if (!mass_damping_ && std::all_of(terms_.begin(), terms_.end(), is_dead)) traits_.linear = true;
   }
 
-  int num_dofs() const override { return whole_.num_dofs(); }
-  const Ranks* ranks() const override { return whole_.ranks(); }
-  Eigen::Index num_dofs_of_all() const override { return whole_.num_dofs_of_all(); }
-  Vector part_of(const Vector& all) const override { return whole_.part_of(all); }
   // Traits of the whole model; also linear if all parts are dead loads.
   const Traits& traits() const override { return traits_; }
 
@@ -67,21 +65,12 @@ class PartModel : public Model {
     if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
   }
 
-  const Pattern& pattern() const override { return whole_.pattern(); }
-
   // Like that of the whole model, but without mass damping if this is not among the parts.
   void combine(const Weights& w, const Linearization& at, double* values) const override {
     const auto& parts = whole_.parts();
     const double dropped = mass_damping_ ? 0 : w.damping * parts.mass_damping;
     whole_.combine({w.mass - dropped, w.damping, w.stiffness}, at, values);
   }
-
-  void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const override {
-    whole_.multiply_matrix(values, x, y);
-  }
-  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
-  void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
-  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return whole_.rigid_motions(q); }
 
   // Bound from Term::add_stiffness_bound(); 0 (no bound) if elasticity is among the parts.
   double frequency_bound() const override {

@@ -27,7 +27,7 @@ std::unique_ptr<LoadPath> LoadPath::settling(const Model& model, const PathTimes
 }
 
 LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start, Loaded loaded)
-    : model_(model), times_(times), traits_(model.traits()), start_(std::move(start)) {
+    : DerivedModel(model), times_(times), traits_(model.traits()), start_(std::move(start)) {
   bool is_finite = false;
   try {
     split_forces(loaded);
@@ -41,16 +41,16 @@ LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start, Loa
 }
 
 void LoadPath::split_forces(Loaded loaded) {
-  const auto load_parts = model_.load_parts();
+  const auto load_parts = original().load_parts();
   if (!load_parts) {
-    unbalanced_ = force_at_rest(model_, times_.begin, start_);
+    unbalanced_ = force_at_rest(original(), times_.begin, start_);
     return;
   }
-  structure_ = without_loads(model_);
+  structure_ = without_loads(original());
   if (loaded == Loaded::no) {
     unbalanced_ = force_at_rest(*structure_, times_.begin, start_);
   } else if (!load_parts->empty()) {
-    loads_ = model_.only(*load_parts);
+    loads_ = original().only(*load_parts);
     classify_loads();
   }
 }
@@ -98,7 +98,7 @@ Vector LoadPath::rate(double lambda, const ConstVectorRef& q) const {
 }
 
 std::unique_ptr<StateView> LoadPath::view(const State& state) const {
-  return model_.view({times_.at(state.t), state.q, state.v, state.t});
+  return original().view({times_.at(state.t), state.q, state.v, state.t});
 }
 
 void LoadPath::assemble(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/ode/model.h"
+#include "lib/ode/derived_model.h"
 
 namespace orthodyn {
 
@@ -27,7 +27,7 @@ struct PathTimes {
   double begin, end;
 };
 
-class LoadPath : public Model {
+class LoadPath : public DerivedModel {
  public:
   // `start`: q at lambda = 0, m. `model` must outlive this object. Throws RunError if there is no finite force at the
   // start.
@@ -49,26 +49,12 @@ class LoadPath : public Model {
   // True if rate() is constant, and stored.
   bool has_constant_rate() const { return !moves_supports() && !loads_; }
 
-  int num_dofs() const override { return model_.num_dofs(); }
-  const Ranks* ranks() const override { return model_.ranks(); }
-  Eigen::Index num_dofs_of_all() const override { return model_.num_dofs_of_all(); }
-  Vector part_of(const Vector& all) const override { return model_.part_of(all); }
   const Traits& traits() const override { return traits_; }
   void force(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
-  const Pattern& pattern() const override { return model_.pattern(); }
-  void combine(const Weights& w, const Linearization& at, double* values) const override {
-    model_.combine(w, at, values);
-  }
-  void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const override {
-    model_.multiply_matrix(values, x, y);
-  }
-  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { model_.multiply_mass(x, y); }
-  void solve_mass(VectorRef x) const override { model_.solve_mass(x); }
-  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return model_.rigid_motions(q); }
 
-  std::vector<OutputInfo> outputs() const override { return model_.outputs(); }
+  std::vector<OutputInfo> outputs() const override { return original().outputs(); }
   std::unique_ptr<StateView> view(const State& state) const override;
-  Geometry geometry() const override { return model_.geometry(); }
+  Geometry geometry() const override { return original().geometry(); }
 
  private:
   enum class Loaded { yes, no };
@@ -81,9 +67,8 @@ class LoadPath : public Model {
   void assemble_predicted(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q,
                           Linearization& out) const override;
   void add_load_tangent(double lambda, const ConstVectorRef& q, TangentKind kind, Linearization& out) const;
-  const Model& structure() const { return structure_ ? *structure_ : model_; }
+  const Model& structure() const { return structure_ ? *structure_ : original(); }
 
-  const Model& model_;
   PathTimes times_;
   Traits traits_;
   Vector start_;
