@@ -88,8 +88,9 @@ output: {fields: []}
   EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
 }
 
-// Half a gigabyte with a third of it available.
-TEST_F(Losses, AFactorWithoutRoomIsRefusedBeforeItIsTried) {
+// Half a gigabyte, of which libraries and mesh take about two thirds. The factor is refused before it is tried, or,
+// with libraries that take more, an allocation before it fails.
+TEST_F(Losses, AFactorWithoutRoomEndsTheRunWithTheReason) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "needs all addresses";
 #endif
@@ -105,7 +106,9 @@ output: {fields: []}
   const auto result =
       shell("cd " + folder_.string() + " && ulimit -v 500000 && " + program() + " run block.yaml --quiet");
   EXPECT_EQ(result.exit_code, 3) << result.output;
-  EXPECT_NE(result.output.find("the Cholesky factor does not fit in memory"), std::string::npos) << result.output;
+  EXPECT_TRUE(result.output.find("the Cholesky factor does not fit in memory") != std::string::npos ||
+              result.output.find("out of memory; use a coarser mesh") != std::string::npos)
+      << result.output;
   EXPECT_EQ(Json::parse(read_text(folder_ / "out/block/run.json"))["failure"]["reason"], "out of memory");
 }
 
