@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/core/symmetric_eigen.h"
@@ -61,6 +62,15 @@ Mat6 relaxed_stiffness(const Viscoelasticity& branches, const Mat6& C) {
   Mat6 relaxed = C;
   for (const PronyBranch& branch : branches) relaxed -= branch.stiffness(C);
   return relaxed;
+}
+
+bool relaxes_in_volume(const Viscoelasticity& branches, const Mat6& C) {
+  constexpr double kRoundOff = 1e-12;
+  Vec6 volume;
+  volume << Vec3::Ones(), Vec3::Zero();
+  return std::any_of(branches.begin(), branches.end(), [&](const PronyBranch& branch) {
+    return (branch.stiffness(C) * volume).norm() > kRoundOff * C.norm();
+  });
 }
 
 std::string why_inadmissible(const Viscoelasticity& branches, const Stiffness& stiffness) {

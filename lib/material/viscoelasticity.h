@@ -31,6 +31,9 @@ using Viscoelasticity = std::vector<PronyBranch>;
 // C minus the stiffness of all branches, Pa.
 Mat6 relaxed_stiffness(const Viscoelasticity& branches, const Mat6& C);
 
+// Whether a change of volume causes a stress that relaxes. Not with shares of shear moduli or `deviatoric` ones alone.
+bool relaxes_in_volume(const Viscoelasticity& branches, const Mat6& C);
+
 // Why the branches cannot be used with this stiffness, as a sentence; "" if they can.
 std::string why_inadmissible(const Viscoelasticity& branches, const Stiffness& stiffness);
 

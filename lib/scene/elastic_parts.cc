@@ -83,9 +83,10 @@ bool is_mixed(const Scene& scene, const Region& region, const Material& material
                                    ? fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural)
                                : elasticity_of(scene, region).is_warped() ? "with elasticity.corotation: warped"
                                : region.law == ElasticLaw::neo_hookean    ? "with law: neo_hookean"
-                               : swells(scene, material)   ? "for a material that swells by moisture or temperature"
-                               : is_viscoelastic(material) ? "for a viscoelastic material"
-                                                           : "";
+                               : swells(scene, material) ? "for a material that swells by moisture or temperature"
+                               : relaxes_in_volume(material.viscoelasticity(), voigt(material.stiffness()))
+                                   ? "for a material whose bulk modulus relaxes; give `deviatoric` shares"
+                                   : "";
   if (region.formulation == Formulation::mixed && !obstacle.empty())
     region.origin.fail("formulation: mixed is not available " + obstacle);
   return obstacle.empty() &&

@@ -254,6 +254,53 @@ TEST(History, OfOneIntervalIsThatOfManySmallOnes) {
   EXPECT_LE((z - along(1)).norm(), 1e-6 * z.norm());
 }
 
+// Rubber whose shear modulus relaxes, in the mixed formulation.
+std::string rubber(const std::string& branches, const std::string& kinematics, const std::string& mesh,
+                   double young = 10, double nu = 0.49) {
+  return fmt::format(R"(
+mesh: {{type: box, size: [1, 0.8, 0.6], cells: [2, 1, 1], {}}}
+materials: {{m: {{type: isotropic, density: 1, young: {}, nu: {}{}}}}}
+regions: {{all: {{material: m, formulation: mixed}}}}
+elasticity: {{kinematics: {}}}
+time: {{end: 2}}
+)",
+                     mesh, young, nu, branches.empty() ? "" : ", viscoelastic: " + branches, kinematics);
+}
+class MixedMeshes : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Viscoelastic, MixedMeshes,
+                         testing::Values("order: 2", "elements: hexahedra, order: 1", "elements: hexahedra, order: 2",
+                                         "elements: wedges, order: 2"));
+
+TEST_P(MixedMeshes, ForcesOfRubberHaveTheirDerivatives) {
+  for (const std::string& name : kKinematics) {
+    const Body body(rubber("[{time: 0.1, deviatoric: 0.5}, {time: 3, deviatoric: 0.3}]", name, GetParam()));
+    Random random(420);
+    const Vector q = random_dofs(random, body.s.size(), 0.02), dq = random_dofs(random, body.s.size(), 1),
+                 z = body.random_internals(random);
+    expect_derivative([&](double h) { return one(body.output("energy.elastic", q + h * dq, z)); },
+                      one(-body.force(q, z).dot(dq)));
+    using Kind = InternalState::Kind;
+    for (const InternalState& state :
+         {InternalState{Kind::given, z.data(), 0}, InternalState{Kind::relaxed, nullptr, 0}})
+      expect_derivative([&](double h) { return body.force(q + h * dq, state); }, -body.stiffness(q, state) * dq);
+  }
+}
+
+// For small uniform strains relaxed rubber is one with a lower shear modulus and the same bulk modulus.
+TEST_P(MixedMeshes, RelaxedRubberKeepsItsBulkModulus) {
+  const double young = 10, nu = 0.49, left = 0.2, shear = left * young / (2 * (1 + nu)),
+               bulk = young / (3 * (1 - 2 * nu));
+  const Body body(rubber("[{time: 0.1, deviatoric: 0.5}, {time: 3, deviatoric: 0.3}]", "linear", GetParam()));
+  const BuiltTestScene soft(rubber("", "linear", GetParam(), 9 * bulk * shear / (3 * bulk + shear),
+                                   (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)));
+  Random random(421);
+  const Mat3 H = 0.01 * random.matrix();
+  const Vector q = soft.dofs([&](const Vec3& X) { return Vec3(H * X); });
+  const Vector f = soft.force(q);
+  EXPECT_GE(f.norm(), 1e-3);
+  EXPECT_LE((body.s.force(q) - f).norm(), 1e-12 * f.norm());
+}
+
 TEST(Viscoelastic, InputIsRefusedWithTheReason) {
   const auto message = [](const std::string& branches, const std::string& more = "") {
     try {
@@ -273,6 +320,12 @@ TEST(Viscoelastic, InputIsRefusedWithTheReason) {
   EXPECT_THAT(message("[{time: 0, share: 0.1}]"), HasSubstr("time"));
   EXPECT_THAT(message("[{time: 1, share: 1.1}]"), HasSubstr("share"));
   EXPECT_THAT(message("[{time: 1, share: 0.1}]", "elasticity: {corotation: warped}"), HasSubstr("viscoelastic"));
+  try {
+    const BuiltTestScene s(rubber("[{time: 1, share: 0.1}]", "linear", "order: 2"));
+    ADD_FAILURE() << "mixed formulation with a bulk modulus that relaxes";
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("give `deviatoric` shares"));
+  }
 }
 
 }  // namespace

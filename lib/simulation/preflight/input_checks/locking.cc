@@ -41,8 +41,9 @@ void check_locking(const CheckContext& context, Warnings& out) {
            "{}, and stresses are then wrong, by up to several times their size, without the mixed formulation: {}",
            material,
            region.options.is_warped() ? "remove elasticity.corotation: warped"
-           : excludes_mixed(*term)    ? "it is not available for a material that swells or relaxes; use a smaller "
-                                        "Poisson's ratio, or judge displacements only"
+           : excludes_mixed(*term)    ? "it is not available for a material that swells or whose bulk modulus "
+                                        "relaxes; relax the shear modulus only (`deviatoric`), use a smaller Poisson's "
+                                        "ratio, or judge displacements only"
                                       : "remove formulation: displacement");
   }
 }
