@@ -39,11 +39,11 @@ class ActiveFibresAt : public FibreLawAt {
   }
   Batch potential(std::size_t index, const Batch& x) const override { return isometric(index) * work(x); }
   Batch supply(std::size_t index, const Batch& x) const override {
-    return factor_ * activation_->rate[index] * work(x);
+    return factor_ * activation_->rate(index) * work(x);
   }
 
   // The stress at the best stretch, Pa.
-  Batch isometric(std::size_t index) const { return factor_ * activation_->value[index]; }
+  Batch isometric(std::size_t index) const { return factor_ * activation_->value(index); }
   Batch of_length(const Batch& x) const {
     return per_lane([&](int l) { return law_.length->value(x[l]); });
   }
@@ -107,9 +107,9 @@ class ActiveFibres : public AddedLaw {
     auto found = activation_.values->at(t);
     const std::scoped_lock lock(mutex_);
     if (found == checked_) return found;
-    for (std::size_t index = 0; index < found->value.size(); ++index)
+    for (std::size_t index = 0; index < found->size(); ++index)
       for (int l = 0; l < Batch::kLanes; ++l)
-        if (const double a = found->value[index][l]; !(a >= -kRoundOff && a <= 1 + kRoundOff)) refuse(t, a, index, l);
+        if (const double a = found->value(index)[l]; !(a >= -kRoundOff && a <= 1 + kRoundOff)) refuse(t, a, index, l);
     checked_ = found;
     return found;
   }

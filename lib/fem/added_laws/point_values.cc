@@ -11,32 +11,29 @@ inline namespace ORTHODYN_LANES {
 std::shared_ptr<const PointValues::At> PointValues::at(double t) const {
   const std::scoped_lock lock(mutex_);
   if (last_ && (t == time_ || constant())) return last_;
-  last_ = packed([&](const Note& note) { evaluate(t, note); });
+  last_ = std::make_shared<At>(packed([&](const Note& note) { evaluate(t, note); }),
+                               [this, t] { return packed([&](const Note& note) { evaluate_rates(t, note); }); });
   time_ = t;
   return last_;
 }
 
 std::shared_ptr<const PointValues::At> PointValues::at_peak(double start, double end) const {
-  return packed([&](const Note& note) { evaluate_peak(start, end, note); });
+  return std::make_shared<At>(packed([&](const Note& note) { evaluate_peak(start, end, note); }), nullptr);
 }
 
-std::shared_ptr<const PointValues::At> PointValues::packed(const std::function<void(const Note&)>& evaluate) const {
+std::vector<Batch> PointValues::packed(const std::function<void(const Note&)>& evaluate) const {
   constexpr auto kLanes = static_cast<Eigen::Index>(Batch::kLanes);
   const Eigen::Index elements = size() / points_, batches = (elements + kLanes - 1) / kLanes;
-  Eigen::ArrayXXd value(kLanes, batches * points_), rate(kLanes, batches * points_);  // column: LawPoint::index
-  evaluate([&](Eigen::Index index, double v, double r) {
+  Eigen::ArrayXXd lanes(kLanes, batches * points_);  // column: LawPoint::index
+  evaluate([&](Eigen::Index index, double value) {
     const Eigen::Index k = index / points_, column = k / kLanes * points_ + index % points_;
     // The last element fills the lanes after it.
-    for (Eigen::Index lane = k % kLanes; lane < (k + 1 < elements ? k % kLanes + 1 : kLanes); ++lane) {
-      value(lane, column) = v;
-      rate(lane, column) = r;
-    }
+    for (Eigen::Index lane = k % kLanes; lane < (k + 1 < elements ? k % kLanes + 1 : kLanes); ++lane)
+      lanes(lane, column) = value;
   });
-  auto out = std::make_shared<At>();
-  for (Eigen::Index i = 0; i < value.cols(); ++i) {
-    out->value.push_back(Batch::load(&value(0, i)));
-    out->rate.push_back(Batch::load(&rate(0, i)));
-  }
+  std::vector<Batch> out;
+  out.reserve(static_cast<std::size_t>(lanes.cols()));
+  for (Eigen::Index i = 0; i < lanes.cols(); ++i) out.push_back(Batch::load(&lanes(0, i)));
   return out;
 }
 
@@ -56,13 +53,13 @@ class ScaledValues : public PointValues {
   double seconds_at_peak(double start, double end) const override { return factor_->seconds_at_peak(start, end); }
 
  private:
-  void evaluate(double t, const Note& note) const override {
-    const double factor = factor_->value(t), rate = factor_->rate(t);
-    for (Eigen::Index i = 0; i < values_.size(); ++i) note(i, factor * values_[i], rate * values_[i]);
-  }
+  void evaluate(double t, const Note& note) const override { note_multiples(factor_->value(t), note); }
+  void evaluate_rates(double t, const Note& note) const override { note_multiples(factor_->rate(t), note); }
   void evaluate_peak(double start, double end, const Note& note) const override {
-    const double factor = factor_->peak(start, end);
-    for (Eigen::Index i = 0; i < values_.size(); ++i) note(i, factor * values_[i], 0);
+    note_multiples(factor_->peak(start, end), note);
+  }
+  void note_multiples(double factor, const Note& note) const {
+    for (Eigen::Index i = 0; i < values_.size(); ++i) note(i, factor * values_[i]);
   }
   Eigen::Index size() const override { return values_.size(); }
 
@@ -100,9 +97,12 @@ class FormulaValues : public PointValues {
 
  private:
   void evaluate(double t, const Note& note) const override {
+    for (Eigen::Index i = 0; i < places_.cols(); ++i) note(i, formula_.at(t, places_.col(i)));
+  }
+  void evaluate_rates(double t, const Note& note) const override {
     for (Eigen::Index i = 0; i < places_.cols(); ++i) {
       const auto value = [&](double time) { return formula_.at(time, places_.col(i)); };
-      note(i, value(t), constant() ? 0 : smooth_differences<double>(value, t, step_.at(t), limits_).first);
+      note(i, constant() ? 0 : smooth_differences<double>(value, t, step_.at(t), limits_).first);
     }
   }
   // The largest of some values in the time span.
@@ -114,7 +114,7 @@ class FormulaValues : public PointValues {
         const double value = formula_.at(start + k * (end - start) / samples, places_.col(i));
         if (std::abs(value) > std::abs(peak)) peak = value;
       }
-      note(i, peak, 0);
+      note(i, peak);
     }
   }
   Eigen::Index size() const override { return places_.cols(); }

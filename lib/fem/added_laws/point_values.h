@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "lib/config/formula.h"
@@ -16,17 +17,36 @@ namespace orthodyn {
 
 inline namespace ORTHODYN_LANES {
 
-// Values and rates (1/s) for batches of elements. Thread-safe: the values at one time are computed once.
+// Values and rates for batches of elements. Thread-safe: the values at one time are computed once, and their rates when
+// they are needed, for powers only.
 class PointValues {
  public:
-  struct At {
-    std::vector<Batch> value, rate;  // by LawPoint::index
+  class At {
+   public:
+    // `find_rate`: computes the rates; empty if they are zero.
+    At(std::vector<Batch> value, std::function<std::vector<Batch>()> find_rate)
+        : value_(std::move(value)), find_rate_(std::move(find_rate)) {}
+
+    std::size_t size() const { return value_.size(); }
+    // By LawPoint::index; rates in 1/s.
+    const Batch& value(std::size_t index) const { return value_[index]; }
+    const Batch& rate(std::size_t index) const {
+      std::call_once(once_, [&] { rate_ = find_rate_ ? find_rate_() : std::vector<Batch>(value_.size(), Batch(0)); });
+      return rate_[index];
+    }
+
+   private:
+    std::vector<Batch> value_;
+    std::function<std::vector<Batch>()> find_rate_;
+    mutable std::once_flag once_;
+    mutable std::vector<Batch> rate_;
   };
 
   // `points`: number of integration points of an element.
   explicit PointValues(int points) : points_(points) {}
   virtual ~PointValues() = default;
 
+  // This object must outlive the result.
   std::shared_ptr<const At> at(double t) const;
 
   virtual bool constant() const = 0;
@@ -40,14 +60,15 @@ class PointValues {
   virtual double seconds_at_peak(double start, double end) const = 0;
 
  protected:
-  // Calls note(index, value, rate) for all points, element by element.
-  using Note = std::function<void(Eigen::Index index, double value, double rate)>;
+  // Calls note(index, value) for all points, element by element.
+  using Note = std::function<void(Eigen::Index index, double value)>;
   virtual void evaluate(double t, const Note& note) const = 0;
+  virtual void evaluate_rates(double t, const Note& note) const = 0;
   virtual void evaluate_peak(double start, double end, const Note& note) const = 0;
   virtual Eigen::Index size() const = 0;  // number of points of all elements
 
  private:
-  std::shared_ptr<const At> packed(const std::function<void(const Note&)>& evaluate) const;
+  std::vector<Batch> packed(const std::function<void(const Note&)>& evaluate) const;
 
   int points_;
   mutable std::mutex mutex_;

@@ -38,10 +38,10 @@ class StressFreeStrain {
 
   // Normal strains along the material axes, and their rates (1/s), at a point (LawPoint::index).
   Vec3T<Batch> strain(std::size_t index) const {
-    return sum([&](const PointValues::At& change) { return change.value[index]; });
+    return sum([&](const PointValues::At& change) { return change.value(index); });
   }
   Vec3T<Batch> rate(std::size_t index) const {
-    return sum([&](const PointValues::At& change) { return change.rate[index]; });
+    return sum([&](const PointValues::At& change) { return change.rate(index); });
   }
 
  private:
