@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "lib/fem/fem_model.h"
 #include "lib/ode/constraints_at.h"
@@ -49,6 +50,15 @@ Vec3 span(const JointEquation& e, const NodalVector& u) {
 Vec3 force_on_first(const JointEquation& e, const NodalVector& u, const Vector& lambda) {
   if (e.kind == JointEquation::Kind::coincide) return -lambda.head<3>();
   return -lambda[0] / e.length() * span(e, u);
+}
+
+// The joint that has this constraint.
+const Joint& joint_of(const FemModel::Parts& parts, int constraint) {
+  int first = 0;
+  for (const Joint& joint : parts.joints)
+    for (const JointEquation& equation : joint.equations)
+      if (first += equation.size(); constraint < first) return joint;
+  throw std::logic_error("no such constraint");
 }
 
 class JointConstraints final : public Constraints {
@@ -169,39 +179,40 @@ Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalVe
   return sum;
 }
 
-void start_consistently(const FemModel& model, State& state) {
+double start_consistently(const FemModel& model, State& state) {
   const Constraints* constraints = model.constraints();
-  if (!constraints) return;
+  if (!constraints) return 0;
   constexpr double kApart = 1e-9, kDependent = 1e-10;  // relative to the body, and of eigenvalues
+  const auto fail = [&](Eigen::Index constraint, const std::string& what) {
+    const int k = static_cast<int>(constraint);
+    throw ConfigError(joint_of(model.parts(), k).place, fmt::format("{} {}", constraints->name(k), what));
+  };
   const int m = constraints->size();
   Vector g(m);
   constraints->values(state.t, state.q, g);
   Eigen::Index worst = 0;
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   if (const double apart = g.cwiseAbs().maxCoeff(&worst); apart > kApart * extent)
-    throw ConfigError("joints",
-                      fmt::format("{}: the points are {:.3g} m apart at the start; the initial displacement must "
-                                  "keep joints together",
-                                  constraints->name(static_cast<int>(worst)), apart));
+    fail(worst,
+         fmt::format("has points {:.3g} m apart at the start; the initial displacement must keep joints together",
+                     apart));
   const ConstraintsAt at(model, state.t, state.q);
   const Eigen::MatrixXd& H = at.matrix();
   const Vector scale = H.diagonal().cwiseSqrt().cwiseInverse();
-  for (int k = 0; k < m; ++k)
-    if (!std::isfinite(scale[k]))
-      throw ConfigError("joints",
-                        constraints->name(k) + " holds nothing that can move: all its nodes are clamped or moved");
+  for (Eigen::Index k = 0; k < m; ++k)
+    if (!std::isfinite(scale[k])) fail(k, "holds nothing that can move: all its nodes are clamped or moved");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
   if (eigen.eigenvalues()[0] < kDependent) {
-    Eigen::Index of = 0;
-    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&of);
-    throw ConfigError("joints", fmt::format("{} is already held by the other joints and clamps: remove one of them",
-                                            constraints->name(static_cast<int>(of))));
+    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+    fail(worst, "is already held by the other joints and clamps: remove one of them");
   }
+  const Vector before = state.v;
   at.fit(state.v);
   Vector a(state.q.size());
   model.force(state.t, state.q, state.v, a);
   model.solve_mass(a);
   state.lambda = at.multipliers(state.v, a);
+  return (state.v - before).lpNorm<Eigen::Infinity>();
 }
 
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts) {

@@ -34,6 +34,7 @@ struct JointEquation {
 
 struct Joint {
   std::string name;
+  std::string place;  // in the input, for messages
   std::vector<JointEquation> equations;
 };
 
@@ -41,8 +42,8 @@ class FemModel;
 struct State;
 
 // Makes a start satisfy the constraints of the model's joints: takes the least change of the velocities by the kinetic
-// energy, and computes the multipliers. Throws ConfigError, with the name of a joint, if points of joints are apart or
-// if constraints depend on each other.
-void start_consistently(const FemModel& model, State& state);
+// energy, and computes the multipliers. Returns the largest change of a velocity, m/s. Throws ConfigError, with the
+// name of a joint, if points of joints are apart or if constraints depend on each other.
+double start_consistently(const FemModel& model, State& state);
 
 }  // namespace orthodyn

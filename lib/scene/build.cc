@@ -194,6 +194,19 @@ NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
   return here;
 }
 
+// Makes the initial velocities fit the joints.
+void fit_joints(const Scene& scene, BuiltScene& built) {
+  constexpr double kTold = 1e-6;  // relative to the largest velocity
+  const double largest = built.initial.v.lpNorm<Eigen::Infinity>();
+  const double changed = start_consistently(*built.model, built.initial);
+  if (changed > kTold * largest)
+    built.warnings.push_back(
+        fmt::format("{}: the joints forbid the initial velocities; the run starts with the nearest ones that they "
+                    "allow, which differ by "
+                    "up to {:.3g} m/s",
+                    scene.initial ? scene.initial->origin.where : scene.joints.front().origin.where, changed));
+}
+
 BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
   if (ranks) require_divisible(scene);
   LoadedMesh loaded = load_mesh(scene);
@@ -251,6 +264,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   add_notes(scene, built.warnings);
   add_note_on_means(scene, built.model->parts().mesh, built.warnings);
   built.initial = initial_state(scene.initial, scene.time.start, *built.model);
+  fit_joints(scene, built);
   return built;
 }
 

@@ -78,7 +78,6 @@ State completed(State state, const FemModel& model, bool is_loaded) {
     if (is_loaded) internal->strains(state.t, state.q, state.z);
     else internal->total_strains(state.q, state.z);
   }
-  start_consistently(model, state);
   return state;
 }
 

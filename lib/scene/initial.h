@@ -27,10 +27,11 @@ struct Initial {
   std::optional<Mat3> deformation_gradient;                       // about `center`
   std::optional<std::array<PointFormula, 3>> displacement_field;  // m, function of the rest position
   std::optional<Noise> noise;
+  SourceLocation origin;
   static const Spec<Initial>& spec();
 };
 
-// The initial state at `time` (s); without `initial`, the undeformed body at rest.
+// The initial state at `time` (s); without `initial`, the undeformed body at rest. Its velocities may violate joints.
 State initial_state(const std::optional<Initial>& initial, double time, const FemModel& model);
 
 // The state at `time` (s) with free coordinates q (m) and the initial velocities.

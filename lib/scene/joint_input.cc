@@ -56,12 +56,13 @@ Joint JointInput::on(const Mesh& mesh) const {
   const auto of_second = [&](const Vec3& point) { return second ? held(*second, point) : JointPoint{{}, point}; };
   using Kind = JointEquation::Kind;
   switch (type) {
-    case JointType::ball: return {name, {{Kind::coincide, held(first, *at), of_second(*at)}}};
+    case JointType::ball: return {name, origin.where, {{Kind::coincide, held(first, *at), of_second(*at)}}};
     case JointType::hinge:
       return {
           name,
+          origin.where,
           {{Kind::coincide, held(first, *from), of_second(*from)}, {Kind::coincide, held(first, *to), of_second(*to)}}};
-    default: return {name, {{Kind::distance, held(first, *from), of_second(*to)}}};
+    default: return {name, origin.where, {{Kind::distance, held(first, *from), of_second(*to)}}};
   }
 }
 

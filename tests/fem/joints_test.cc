@@ -165,6 +165,14 @@ TEST(Joints, AreRefusedWithTheReason) {
   EXPECT_THAT(message("{type: ball, name: a, " + pin, "clamps: [{surface: upper.x1}]"), HasSubstr("clamped"));
   EXPECT_THAT(message("{type: ball, name: a, " + pin, "initial: {displacement_field: [0.1, 0, 0]}"),
               HasSubstr("apart"));
+  EXPECT_THAT(message("{type: ball, name: a, " + pin + ", {type: ball, name: b, " + pin), HasSubstr("joints."));
+}
+
+TEST(Joints, VelocitiesThatTheyForbidAreTold) {
+  const std::string ball = "{type: ball, name: a, at: [1, 0.1, 0.1], first: {surface: upper.x1}}";
+  const BuiltTestScene forbidden(two_bars(ball, "initial: {velocity: [1, 0, 0]}")), rest(two_bars(ball, ""));
+  EXPECT_THAT(forbidden.built.warnings, testing::Contains(testing::HasSubstr("the joints forbid")));
+  EXPECT_THAT(rest.built.warnings, testing::Not(testing::Contains(testing::HasSubstr("the joints forbid"))));
 }
 
 }  // namespace
