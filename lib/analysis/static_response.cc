@@ -37,15 +37,15 @@ Vector impulse(const FemModel& model, const State& initial, double end) {
 
 constexpr double kAccuracy = 1e-5;  // relative, in the energy norm; for iterative solvers
 
-// Factorises K at rest, with `duration` (s) that of viscoelastic materials after a strain that has grown for this time,
-// and stores its entries in `values`. Returns null if K is singular or nearly so, or if the factor
-// does not fit into memory, because runs that need no factor can go on.
-std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values,
+// Factorises K at rest at the time t, with `duration` (s) that of viscoelastic materials after a strain that has grown
+// for this time, and stores its entries in `values`. Returns null if K is singular or nearly so, or if the factor does
+// not fit into memory, because runs that need no factor can go on.
+std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values, double t = 0,
                                                  std::optional<double> duration = {}) try {
   const Vector zero = Vector::Zero(model.num_dofs());
   Linearization at;
   if (const InternalVariables* internal = model.internal_variables(); internal && duration)
-    internal->assemble(0, zero, zero, {InternalState::Kind::history, nullptr, *duration}, TangentKind::gauss_newton,
+    internal->assemble(t, zero, zero, {InternalState::Kind::history, nullptr, *duration}, TangentKind::gauss_newton,
                        at);
   else model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
   values.resize(at.stiffness.size());
@@ -101,6 +101,9 @@ double load_duration_factor(const VectorSpace& space, const StaticResponse& stat
 
 StaticResponse static_response(const FemModel& model, const State& initial, double end) {
   StaticResponse response{peak_load(model, initial, end, 0, model.parts().loads.size()), {}};
+  const bool is_motion = !model.parts().loads_at && end > initial.t;
+  if (const InternalVariables* internal = model.internal_variables(); internal && is_motion)
+    internal->add_peak_force(initial.t, end, response.load);
   const Vector& load = response.load;
   Vector momentum(load.size());
   model.multiply_mass(initial.v, momentum);
@@ -110,8 +113,8 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   const bool is_free = unknowns == 3 * static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
   if (space.is_zero(load) && (space.is_zero(momentum) || is_free || unknowns > kLargestForVelocities)) return response;
   std::vector<double> values;
-  const bool is_motion = !model.parts().loads_at && end > initial.t;
-  const auto solver = factored_stiffness(model, values, is_motion ? std::optional(end - initial.t) : std::nullopt);
+  const auto solver =
+      factored_stiffness(model, values, initial.t, is_motion ? std::optional(end - initial.t) : std::nullopt);
   if (!solver) return response;
   const auto solve = [&](const Vector& b) { return solution(*solver, model, values, b); };
   std::optional<Vector> u = solve(load);

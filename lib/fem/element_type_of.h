@@ -107,7 +107,8 @@ class ElementTypeOf final : public ElementType {
   std::unique_ptr<ElasticTerm> mixed_term(const C& stiffness, const ElementMesh& mesh, ElasticRegion region,
                                           const BlockPattern& pattern) const {
     constexpr bool kProjectsAll = E::kDegree == 1 || E::kPressures > 1;
-    const double all = volumetric_modulus(stiffness), projected = kProjectsAll ? all : excess_bulk_modulus(stiffness);
+    const Stiffness& softest = region.softest();
+    const double all = volumetric_modulus(softest), projected = kProjectsAll ? all : excess_bulk_modulus(softest);
     const BulkModuli kappa{projected, all - projected};
     const C rest = without_bulk(stiffness, all);
     const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {

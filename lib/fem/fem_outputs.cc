@@ -166,7 +166,8 @@ double imbalance(const View& view) {
   const Vector still = Vector::Zero(parts.dofs->num_dofs());
   Vector q(still.size()), free(still.size());
   parts.dofs->restrict_to(nodal.u, q);
-  const NodalExpansion resting(parts, nodal.time, q, still, nodal.load_factor);
+  NodalExpansion resting(parts, nodal.time, q, still, nodal.load_factor);
+  resting.internal = nodal.internal;
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(free, forces);

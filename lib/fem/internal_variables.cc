@@ -31,12 +31,22 @@ class FemInternalVariables final : public InternalVariables {
     term_tangents(parts_, expansion(t, q, v, &z), all_terms(parts_), kind, out);
   }
 
+  void add_peak_force(double start, double end, VectorRef f) const override {
+    const Vector rest = Vector::Zero(f.size());
+    const NodalExpansion nodal = expansion(start, rest, rest, nullptr);
+    NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+    for (const AddedTerm* term : terms_) term->add_internal_peak_force(nodal.state(), end, sum);
+    Vector free(f.size());
+    parts_.dofs->restrict_to(sum, free);
+    f += free;
+  }
+
   void strains(double t, const ConstVectorRef& q, VectorRef e) const override {
     const NodalExpansion nodal = expansion(t, q, Vector::Zero(q.size()), nullptr);
     for (const AddedTerm* term : terms_) term->get_strains(nodal.state(), e);
   }
-  void total_strains(const ConstVectorRef& q, VectorRef e) const override {
-    const NodalExpansion nodal = expansion(0, q, Vector::Zero(q.size()), nullptr);
+  void total_strains(double t, const ConstVectorRef& q, VectorRef e) const override {
+    const NodalExpansion nodal = expansion(t, q, Vector::Zero(q.size()), nullptr);
     for (const AddedTerm* term : terms_) term->get_total_strains(nodal.state(), e);
   }
   void strain_change(double t, const ConstVectorRef& q, const ConstVectorRef& dq, VectorRef de) const override {

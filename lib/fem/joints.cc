@@ -209,7 +209,9 @@ double start_consistently(const FemModel& model, State& state) {
   const Vector before = state.v;
   at.fit(state.v);
   Vector a(state.q.size());
-  model.force(state.t, state.q, state.v, a);
+  if (const InternalVariables* internal = model.internal_variables(); internal && state.z.size() > 0)
+    internal->force(state.t, state.q, state.v, {InternalState::Kind::given, state.z.data(), 0}, a);
+  else model.force(state.t, state.q, state.v, a);
   model.solve_mass(a);
   state.lambda = at.multipliers(state.v, a);
   return (state.v - before).lpNorm<Eigen::Infinity>();

@@ -53,10 +53,14 @@ class InternalVariables {
   virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, const InternalState& z,
                         TangentKind kind, Linearization& out) const = 0;
 
+  // Adds the force at rest of the part of stress-free strains that internal variables have at their peak from `start`
+  // to `end` (s), for a strain that grows during this time; the rest is that of loads.
+  virtual void add_peak_force(double start, double end, VectorRef f) const = 0;
+
   // e, and its derivative de/dq dq.
   virtual void strains(double t, const ConstVectorRef& q, VectorRef e) const = 0;
-  // The strains without the part that depends on t: z of a body that has rested in the shape q before it swells.
-  virtual void total_strains(const ConstVectorRef& q, VectorRef e) const = 0;
+  // The strains with the stress-free strain: z of a body that has rested in the shape q before it swells.
+  virtual void total_strains(double t, const ConstVectorRef& q, VectorRef e) const = 0;
   virtual void strain_change(double t, const ConstVectorRef& q, const ConstVectorRef& dq, VectorRef de) const = 0;
   // df/dz dz, N.
   virtual void force_change(double t, const ConstVectorRef& q, const Vector& dz, VectorRef df) const = 0;

@@ -76,21 +76,29 @@ const ElementType& type_of_cells(const Region& region, CellShape shape, const st
   return full ? quadratic_hexahedron_14() : quadratic_hexahedron();
 }
 
-// Whether a part of the region has the mixed formulation.
-bool is_mixed(const Scene& scene, const Region& region, const Material& material, const ElementType& type) {
-  if (region.formulation == Formulation::displacement) return false;
-  const std::string obstacle = !type.has_mixed_formulation()
-                                   ? fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural)
-                               : elasticity_of(scene, region).is_warped() ? "with elasticity.corotation: warped"
-                               : region.law == ElasticLaw::neo_hookean    ? "with law: neo_hookean"
-                               : swells(scene, material) ? "for a material that swells by moisture or temperature"
-                               : relaxes_in_volume(material.viscoelasticity(), voigt(material.stiffness()))
-                                   ? "for a material whose bulk modulus relaxes; give `deviatoric` shares"
-                                   : "";
-  if (region.formulation == Formulation::mixed && !obstacle.empty())
-    region.origin.fail("formulation: mixed is not available " + obstacle);
-  return obstacle.empty() &&
-         (region.formulation == Formulation::mixed || is_nearly_incompressible(material.stiffness()));
+// Why a part of the region cannot have the mixed formulation; "" if it can.
+std::string mixed_obstacle(const Scene& scene, const Region& region, const Material& material,
+                           const ElementType& type) {
+  if (!type.has_mixed_formulation()) return fmt::format("for {}; set mesh.order: 2", topology(type.shape()).plural);
+  if (elasticity_of(scene, region).is_warped()) return "with elasticity.corotation: warped";
+  if (region.law == ElasticLaw::neo_hookean) return "with law: neo_hookean";
+  if (swells(scene, material)) return "for a material that swells by moisture or temperature";
+  if (relaxes_in_volume(material.viscoelasticity(), voigt(material.stiffness())))
+    return "for a material whose bulk modulus relaxes; give `deviatoric` shares";
+  return "";
+}
+
+// Sets the formulation of a part, whose other members are known.
+void set_formulation(const Scene& scene, const Region& region, const Material& material, const ElementType& type,
+                     ElasticRegion& part) {
+  if (is_viscoelastic(material))
+    part.relaxed = AnisotropicStiffness{relaxed_stiffness(material.viscoelasticity(), voigt(part.stiffness))};
+  part.mixed_obstacle = mixed_obstacle(scene, region, material, type);
+  if (region.formulation == Formulation::mixed && !part.mixed_obstacle.empty())
+    region.origin.fail("formulation: mixed is not available " + part.mixed_obstacle);
+  part.mixed = part.mixed_obstacle.empty() &&
+               (region.formulation == Formulation::mixed ||
+                (region.formulation == Formulation::automatic && is_nearly_incompressible(part.softest())));
 }
 
 // Axes turned by `angle` (rad) about their axis 3.
@@ -285,13 +293,23 @@ std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, Elast
                                                                parts.subdomain ? cells.numbers : cells.here);
     const Stiffness stiffness = scaled(part.material->stiffness(), part.stiffness_factor);
     auto laws = added_laws(scene, part, voigt(stiffness), elements, parts.subdomain ? cells.numbers : cells.here);
-    auto term = part.type->elastic_term(
-        own,
-        {part.name, std::move(cells.here), stiffness, axes, stiffness_damping(scene, entry),
-         elasticity_of(scene, entry), part.material->strength(), std::move(cells.numbers), all,
-         parts.mesh.region_names[part.region], part.ply, parts.subdomain ? part.cells : std::vector<int>(), part.share,
-         part.stiffness_cell, part.stiffness_factor, is_mixed(scene, entry, *part.material, *part.type)},
-        *parts.pattern);
+    ElasticRegion region{part.name,
+                         std::move(cells.here),
+                         stiffness,
+                         axes,
+                         stiffness_damping(scene, entry),
+                         elasticity_of(scene, entry),
+                         part.material->strength(),
+                         std::move(cells.numbers),
+                         all,
+                         parts.mesh.region_names[part.region],
+                         part.ply,
+                         parts.subdomain ? part.cells : std::vector<int>(),
+                         part.share,
+                         part.stiffness_cell,
+                         part.stiffness_factor};
+    set_formulation(scene, entry, *part.material, *part.type, region);
+    auto term = part.type->elastic_term(own, std::move(region), *parts.pattern);
     const auto term_of = [&](std::unique_ptr<const AddedLaw> law) {
       return part.type->added_term(own, *term, std::move(law), *parts.pattern);
     };

@@ -76,7 +76,7 @@ State completed(State state, const FemModel& model, bool is_loaded) {
   if (const InternalVariables* internal = model.internal_variables()) {
     state.z.resize(internal->size());
     if (is_loaded) internal->strains(state.t, state.q, state.z);
-    else internal->total_strains(state.q, state.z);
+    else internal->total_strains(state.t, state.q, state.z);
   }
   return state;
 }

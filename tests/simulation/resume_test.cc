@@ -97,6 +97,29 @@ output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
   EXPECT_NEAR(a.at(3), b.at(3), 1e-2 * std::abs(b.at(3)));
 }
 
+// The scales of a viscoelastic body depend on the end of the run; those of the first run are kept.
+TEST_F(Resume, ABodyThatSwellsAndRelaxesCanBeExtended) {
+  write("bar.yaml", R"(
+mesh: {type: box, size: [0.1, 0.01, 0.01], cells: [4, 1, 1], order: 1}
+materials:
+  m: {type: isotropic, density: 1000, young: 1e9, nu: 0, expansion: {moisture: 2e-4}, viscoelastic: [{time: 2, share: 0.5}]}
+moisture: {change: -10, factor: {type: table, points: [[0, 0], [10, 1]]}}
+clamps: [{surface: x0, components: [x], name: wall}, {surface: x1, components: [x]}, {nearest: [0, 0, 0], components: [y, z]},
+         {nearest: [0, 0.01, 0], components: [z]}]
+integrator: {rtol: 1e-6}
+time: {end: 3}
+checkpoint: {every: 1000}
+output: {reactions: true, history: {interval: 0.5}}
+)");
+  ASSERT_EQ(orthodyn("run bar.yaml --quiet --out part").exit_code, 0);
+  const auto longer = orthodyn("run bar.yaml --quiet --out part --resume --set time.end=8");
+  ASSERT_EQ(longer.exit_code, 0) << longer.output;
+  ASSERT_EQ(orthodyn("run bar.yaml --quiet --out whole --set time.end=8").exit_code, 0);
+  const auto a = read_rows(folder_ / "part/probes.csv").back(), b = read_rows(folder_ / "whole/probes.csv").back();
+  EXPECT_EQ(a.at(0), b.at(0));
+  EXPECT_NEAR(a.at(1), b.at(1), 1e-4 * std::abs(b.at(1)));
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);

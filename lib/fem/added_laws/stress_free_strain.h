@@ -34,6 +34,10 @@ class StressFreeStrain {
     return {causes, [t](const PointValues& values) { return values.at(t); }, factor};
   }
 
+  static StressFreeStrain peak(const std::vector<Swelling>& causes, double start, double end) {
+    return {causes, [start, end](const PointValues& values) { return values.at_peak(start, end); }};
+  }
+
   bool is_zero() const { return parts_.empty(); }
 
   // Normal strains along the material axes, and their rates (1/s), at a point (LawPoint::index).

@@ -108,7 +108,7 @@ class SwellingLaw : public AddedLaw {
 
   bool is_load() const override { return true; }
   std::shared_ptr<const AddedLawAt> at_peak(double start, double end) const override {
-    return of({causes_, [&](const PointValues& change) { return change.at_peak(start, end); }});
+    return of(StressFreeStrain::peak(causes_, start, end));
   }
   double seconds_at_peak(double start, double end) const override {
     double longest = 0;

@@ -59,22 +59,25 @@ class ViscoelasticAt : public InternalLawAt {
 
   Batch energy(const LawPoint& at) const override {
     const Mat3T<Batch> s = relaxed_stress(at);
-    Batch energy = is_linear_ ? -contract<Batch>(s, small_strain<Batch>(at.H, at.Q)) : swelling_energy(at.H, at.Q, s);
+    Batch energy = energy_of(at, s);
     for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) {
       energy += Batch(0.5) * contract<Batch>(branch.C.stress(y), y);
     });
     return energy;
   }
 
-  // The rate of the energy for the rate of e*.
+  // The rate of the energy for the rate of e*, with which y changes at a fixed shape and fixed z.
   Batch power(const LawPoint& at, const Mat3T<Batch>&) const override {
+    if (free_.is_zero()) return Batch(0);
+    const Mat3T<Batch> rate = free_.rate(at.index).asDiagonal();
+    Mat3T<Batch> s_rate = Mat3T<Batch>::Zero();
     Batch sum(0);
-    if (free_.is_zero()) return sum;
-    const Mat3T<Batch> e = strain_of(at, is_linear_), rate = free_.rate(at.index).asDiagonal();
+    for (std::size_t i = 0; i < branches_.size(); ++i) s_rate += Batch(1 - shares_[i]) * branches_[i].C.stress(rate);
     for_each_branch(at, [&](const Branch& branch, const Mat3T<Batch>& y) {
-      sum -= contract<Batch>(branch.C.stress(Mat3T<Batch>(e - y)), rate);
+      const auto i = static_cast<std::size_t>(&branch - branches_.data());
+      sum += Batch(1 - shares_[i]) * contract<Batch>(branch.C.stress(y), rate);
     });
-    return sum;
+    return sum + energy_of(at, s_rate);
   }
 
   Batch dissipation(const LawPoint& at, const Mat3T<Batch>&) const override {
@@ -102,6 +105,12 @@ class ViscoelasticAt : public InternalLawAt {
   }
 
  private:
+  // -s : e.
+  Batch energy_of(const LawPoint& at, const Mat3T<Batch>& s) const {
+    if (is_linear_) return -contract<Batch>(s, small_strain<Batch>(at.H, at.Q));
+    return swelling_energy(at.H, at.Q, s);
+  }
+
   // visit(branch, y) for all branches.
   template <class Visit>
   void for_each_branch(const LawPoint& at, Visit&& visit) const {
@@ -171,7 +180,12 @@ class Viscoelastic : public AddedLaw, public InternalLaw {
   }
 
   bool is_load() const override { return false; }
-  std::shared_ptr<const AddedLawAt> at_peak(double start, double) const override { return at(start, 1); }
+  // After a strain that grows from `start` to `end`.
+  std::shared_ptr<const AddedLawAt> at_peak(double start, double end) const override {
+    const InternalState history{InternalState::Kind::history, nullptr, end - start};
+    return std::make_shared<ViscoelasticAt>(branches_, is_linear_, StressFreeStrain::peak(causes_, start, end),
+                                            PointInternals{history});
+  }
   double seconds_at_peak(double start, double end) const override { return end - start; }
   bool scales_with_stiffness() const override { return true; }
   bool has_energy() const override { return true; }

@@ -31,6 +31,8 @@ class AddedTerm : public Term {
   virtual void get_strains(const NodalState& s, VectorRef strains) const = 0;
   virtual void get_total_strains(const NodalState& s, VectorRef strains) const = 0;
   virtual void get_strain_change(const NodalState& s, const NodalVector& du, VectorRef change) const = 0;
+  // As InternalVariables::add_peak_force().
+  virtual void add_internal_peak_force(const NodalState& s, double end, NodalVector& f) const = 0;
   // Adds the change of the force for a change of the internal variables.
   virtual void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const = 0;
 

@@ -149,6 +149,9 @@ class AddedTermOf final : public AddedTerm {
       return law->strain_change(at.point(), elements_.gradients(b, p, elements_.differences(b, du)));
     });
   }
+  void add_internal_peak_force(const NodalState& s, double end, NodalVector& f) const override {
+    add_force_of(*law_->at_peak(s.t, end), s, f);
+  }
   void add_force_change(const NodalState& s, const Vector& change, NodalVector& f) const override {
     add_force_of(*internal_law_at(s.t, {InternalState::Kind::change, change.data(), 0}), s, f);
   }

@@ -41,6 +41,12 @@ struct ElasticRegion {
   int stiffness_cell = -1;      // cell of the region's grid of stiffness factors; -1 for a region without factors
   double stiffness_factor = 1;  // by which `stiffness` was multiplied
   bool mixed = false;           // formulation for nearly incompressible materials (mixed_elastic_term.h)
+  // Of a viscoelastic material after all relaxation, Pa; empty for other materials.
+  std::optional<Stiffness> relaxed = {};
+  // Why a nearly incompressible region has not the mixed formulation, such as "with law: neo_hookean"; "" if it could.
+  std::string mixed_obstacle = {};
+  // The stiffness that decides whether the material is nearly incompressible.
+  const Stiffness& softest() const { return relaxed ? *relaxed : stiffness; }
 };
 
 class AddedTerm;

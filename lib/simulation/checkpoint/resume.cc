@@ -105,9 +105,10 @@ void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   keep_kinematics(before, scene);
   if (!before.has("integrator")) return;
-  if (!scene.has("integrator")) scene.set("integrator.type", before.at("integrator").at("type"));
-  const Config section = scene.at("integrator"), earlier = before.at("integrator");
-  if (!section.is_map() || !section.has("type")) return;  // read_scene() reports the error
+  const Config earlier = before.at("integrator");
+  if (scene.has("integrator") && !scene.at("integrator").is_map()) return;  // read_scene() reports the error
+  if (!scene.has("integrator") || !scene.at("integrator").has("type")) scene.set("integrator.type", earlier.at("type"));
+  const Config section = scene.at("integrator");
   std::vector<std::string> choices{"position_scale", "velocity_scale"};
   if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety", "modes"});
   for (const auto& key : choices)

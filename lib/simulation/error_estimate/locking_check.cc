@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lib/fem/element_mesh.h"
-#include "lib/fem/terms/added_term.h"
 #include "lib/material/stiffness_contrast.h"
 #include "lib/mesh/cell_volume.h"
 
@@ -97,18 +96,12 @@ std::string one_layer(const Mesh& mesh) {
          "orthodyn converge";
 }
 
-bool allows_mixed(const ElasticTerm& term) {
-  const auto added = term.added();
-  return term.type().has_mixed_formulation() && !term.is_replaced() &&
-         std::none_of(added.begin(), added.end(), [](const AddedTerm* law) { return law->scales_with_stiffness(); });
-}
-
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
   const int order = model.parts().mesh.order();
   for (const auto& term : model.parts().elastic) {
     const ElasticRegion& region = term->definition();
-    const auto [ratio, volumetric] = region.mixed ? StiffnessContrast{contrast_without_bulk(region.stiffness), false}
-                                                  : stiffness_contrast(term->stiffness());
+    const auto [ratio, volumetric] = region.mixed ? StiffnessContrast{contrast_without_bulk(region.softest()), false}
+                                                  : stiffness_contrast(voigt(region.softest()));
     if (by_finer_elements && volumetric) continue;
     if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
     return fmt::format(
@@ -117,10 +110,10 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
         term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
         order == 1 ? "linear elements" : topology(term->type().shape()).plural,
         by_finer_elements ? "two or three times" : "many times",
-        volumetric && allows_mixed(*term) ? "Use formulation: mixed in this region"
-        : order == 1                      ? "Use mesh.order: 2"
-        : volumetric                      ? "Use a smaller nu if this one is not intended, finer cells"
-                                          : "Use finer cells");
+        volumetric && region.mixed_obstacle.empty() ? "Use formulation: mixed in this region"
+        : order == 1                                ? "Use mesh.order: 2"
+        : volumetric                                ? "Use a smaller nu if this one is not intended, finer cells"
+                                                    : "Use finer cells");
   }
   return "";
 }

@@ -43,7 +43,7 @@ struct Body {
   }
   Vector total_strains(const Vector& q) const {
     Vector e(internal.size());
-    internal.total_strains(q, e);
+    internal.total_strains(0, q, e);
     return e;
   }
   Vector force(const Vector& q, const InternalState& z) const {
@@ -122,8 +122,9 @@ TEST_P(Kinematics, HasExactDerivatives) {
                z = body.random_internals(random), dz = body.random_internals(random);
   expect_derivative([&](double h) { return one(body.output("energy.elastic", kTime, q + h * dq, z)); },
                     one(-body.force(q, z).dot(dq)));
-  for (const InternalState& state : {InternalState{Kind::given, z.data(), 0}, InternalState{Kind::relaxed, nullptr, 0},
-                                     InternalState{Kind::history, z.data(), 0.7}})
+  for (const InternalState& state :
+       {InternalState{Kind::given, z.data(), 0}, InternalState{Kind::relaxed, nullptr, 0},
+        InternalState{Kind::history, z.data(), 0.7}, InternalState{Kind::branch, nullptr, 3}})
     expect_derivative([&](double h) { return body.force(q + h * dq, state); }, -body.stiffness(q, state, dq));
   Vector de(z.size()), df(q.size());
   body.internal.strain_change(kTime, q, dq, de);
@@ -142,6 +143,16 @@ TEST_P(Kinematics, EnergyAtAFixedShapeIsThatOfPowerAndDissipation) {
   EXPECT_GT(dissipated, 0);
   expect_derivative([&](double h) { return one(body.output("energy.elastic", kTime + h, q, z + h * rate)); },
                     one(body.output("power.loads", kTime, q, z) - dissipated));
+}
+
+// Also of inverted elements, whose energy is blended.
+TEST(RelaxingSwelling, PowerIsTheRateOfTheEnergyInInvertedElements) {
+  const Body body(kMoving);
+  Random random(435);
+  const Vector q = random_dofs(random, body.s.size(), 0.8), z = body.random_internals(random);
+  EXPECT_LT(body.s.model().evaluate("det_f.smallest", {kTime, q, body.s.zero()})[0], 0);
+  expect_derivative([&](double h) { return one(body.output("energy.elastic", kTime + h, q, z)); },
+                    one(body.output("power.loads", kTime, q, z)));
 }
 
 // Variables along a history, and the forces at its end, are those of given variables.
@@ -168,6 +179,21 @@ TEST(RelaxingSwelling, StartsUnrelaxedUnlessFromEquilibrium) {
   const Vector difference = start.z - loaded.z;
   for (Eigen::Index i = 0; i < difference.size(); i += 6)
     EXPECT_LE((difference.segment<3>(i) - 0.8 * kCoefficients).norm(), 1e-15);
+}
+
+// A start other than zero, with a support that has moved before it.
+TEST(RelaxingSwelling, StartsWithTheStrainsAtItsOwnTime) {
+  const BuiltTestScene s(R"(
+mesh: {type: box, size: [1, 0.8, 0.6], cells: [2, 1, 1]}
+materials: {m: {type: isotropic, density: 1, young: 1, nu: 0.3, viscoelastic: [{time: 1, share: 0.5}]}}
+clamps: [{surface: x0}]
+motions: [{surface: x1, translation: [0.1, 0, 0], factor: {type: table, points: [[0, 0], [10, 1], [20, 1]]}}]
+initial: {displacement_field: [0.1*x, 0, 0]}
+time: {start: 10, end: 12}
+)");
+  const Vector& z = s.built.initial.z;
+  ASSERT_GT(z.size(), 0);
+  for (Eigen::Index i = 0; i < z.size(); i += 6) EXPECT_LE((z.segment<6>(i) - 0.1 * Vec6::Unit(0)).norm(), 1e-14) << i;
 }
 
 }  // namespace
