@@ -255,6 +255,19 @@ time: {end: 1}
 
 TEST_F(FitCommand, RefusesMistakesBeforeAnythingRuns) {
   write("gap.csv", "t [s],z [mm]\n0.1,x\n");
+  write("late.csv", "t [s],z [mm]\n0.1,1\n0.5,1\n");
+  write("mass.csv", "t [s],z [kg]\n0.1,1\n");
+  write("swing.yaml", R"(
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [2, 1, 1]}
+materials: {ply: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, 0.1]}]
+time: {end: 0.2}
+output: {probes: {tip: {at: [1, 0.1, 0.1]}}}
+)");
+  const std::string swing =
+      "experiments: {t: {scene: swing.yaml, measured: [{quantity: tip.displacement.z, deviation: 1 um, ";
+  const std::string young = "parameters: {E: materials.ply.young}\n";
   const std::string tension = "experiments: {t: {scene: strip.yaml, measured: [{quantity: tip.displacement.x, ";
   const std::string value = "value: 0.1 mm, deviation: 1 um}]}}\n", e1 = "parameters: {E1: materials.ply.young.0}\n";
   const std::pair<std::string, const char*> wrong[] = {
@@ -263,6 +276,11 @@ TEST_F(FitCommand, RefusesMistakesBeforeAnythingRuns) {
       {tension + "value: 0.1 mm}]}}\n" + e1, "give the standard deviation"},
       {tension + "value: 0.1 mm, at: 0.2, deviation: 1 um}]}}\n" + e1, "this scene is static"},
       {tension + "table: gap.csv, column: z, deviation: 1 um}]}}\n" + e1, "this scene is static"},
+      {swing + "table: gap.csv, column: 'z [mm]'}]}}\n" + young, "gap.csv:2: column z [mm]: expected a finite number"},
+      {swing + "table: gap.csv, column: y}]}}\n" + young, "gap.csv"},
+      {swing + "table: late.csv, column: 'z [mm]'}]}}\n" + young, "the value is measured at 0.5 s"},
+      {swing + "table: late.csv, column: y}]}}\n" + young, "late.csv has no column 'y'"},
+      {swing + "table: mass.csv, column: 'z [kg]'}]}}\n" + young, "expected a length (m)"},
       {tension + value + "parameters: {E1: materials.ply.young.0, E2: materials.ply.young.1}\n",
        "1 measured value cannot determine 2 parameters"},
       {tension + value + "parameters: {nu: {path: materials.ply.nu12, lower: 0}}\n", "remove lower, upper and scale"},

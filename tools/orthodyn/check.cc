@@ -12,6 +12,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
 #include "lib/material_axes/axes_source.h"
+#include "lib/scene/added_laws.h"
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/preflight/output_size.h"
 #include "lib/simulation/preflight/thickness_check.h"
@@ -50,13 +51,29 @@ void print_strain_limits(const Stiffness& stiffness) {
   }
 }
 
+// Whether all regions of a material have another law than the corotational one.
+bool is_replaced(const Scene& scene, const std::string& material) {
+  bool is_used = false;
+  for (const auto& [name, region] : scene.regions)
+    for (const std::string& own : region.materials()) {
+      if (own == material && region.law == ElasticLaw::corotational) return false;
+      is_used = is_used || own == material;
+    }
+  return is_used;
+}
+
 void print_materials(const Scene& scene, bool is_linear) {
   for (const auto& [name, material] : scene.materials) {
     const Mat6 C = voigt(material->stiffness());
     const Vec6 lambda = symmetric_eigenvalues(C);
     fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
                fmt::join(lambda, ", "));
-    if (!is_linear) print_strain_limits(material->stiffness());
+    if (is_replaced(scene, name)) fmt::print("    law: neo_hookean, for any strain with det F > 0\n");
+    else if (!is_linear) {
+      print_strain_limits(material->stiffness());
+      if (material->fibres()) fmt::print("    these limits are those of the matrix; its fibres bear no compression\n");
+      if (is_viscoelastic(*material)) fmt::print("    these limits are those at once, before the stiffness relaxes\n");
+    }
   }
 }
 

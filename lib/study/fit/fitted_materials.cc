@@ -4,6 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "lib/analysis/strain_limits.h"
+#include "lib/core/symmetric_eigen.h"
+#include "lib/material/material.h"
 #include "lib/simulation/sensitivity/scene_parameter.h"
 #include "lib/study/fit/result.h"
 
@@ -25,6 +28,19 @@ std::string interval_line(const FittedParameter& parameter, const Estimate& esti
                                    : "the data do not determine it";
   return fmt::format("# {} = {}{}{}: {}\n", parameter.name, shown(estimate.value), parameter.unit.empty() ? "" : " ",
                      parameter.unit, interval);
+}
+
+// That the material is stable, and up to which compression its law is.
+std::string verdict(const Material& material) {
+  const Vec6 eigenvalues = symmetric_eigenvalues(voigt(material.stiffness()));
+  std::string text = fmt::format("# Stable: the eigenvalues of the stiffness are {:.3g} to {:.3g} Pa.\n",
+                                 eigenvalues.minCoeff(), eigenvalues.maxCoeff());
+  const auto limits = strain_limits(material.stiffness());
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto& limit = limits[static_cast<std::size_t>(axis)].compression)
+      text += fmt::format("# Compression along axis {} by more than {:.3g} %: {}.\n", axis + 1, -100 * limit->strain,
+                          describe(*limit, axis));
+  return text;
 }
 
 // The scene with the fitted values, to eight digits.
@@ -57,6 +73,7 @@ std::vector<FittedMaterial> fitted_materials(const Fit& fit, const Problem& prob
           fmt::format("# {} from the fit {}. Use it in a scene by\n#   materials: {{{}: {{include: {}.yaml}}}}\n",
                       material, fit.name, material, material);
       yaml += comment;
+      yaml += verdict(*Registry<Material>::read(section.copy()));
       for (const std::string& key : section.keys()) yaml += fmt::format("{}: {}\n", key, section.at(key).yaml());
       out.push_back({material, yaml});
       break;
