@@ -65,6 +65,26 @@ output: {reactions: true, probes: {end: {at: [0.5, 0, 0]}}}
   EXPECT_NEAR(bar.derivative("materials.m.young", "reaction.clamp_1.x"), 0, 1e-8 * 100 / 1e9);
 }
 
+// Of a free bar that swells: u = a change L.
+TEST(EquilibriumSensitivity, OfSwellingIsThatOfItsClosedForm) {
+  const Equilibrium bar(std::string(R"(
+analysis: static
+mesh: {type: box, size: [0.5, 0.1, 0.2], cells: [2, 1, 1], order: 1}
+materials:
+  m: {type: isotropic, density: 1000, young: 1 GPa, nu: 0.3, expansion: {moisture: 1e-3, temperature: 2e-5},
+      viscoelastic: [{time: 1, share: 0.4}]}
+moisture: {change: 4}
+temperature: {change: -50}
+clamps: [{surface: x0, components: [x]}, {nearest: [0, 0, 0], components: [y, z]}, {nearest: [0, 0.1, 0], components: [z]}]
+output: {probes: {end: {at: [0.5, 0, 0]}}}
+)"));
+  ASSERT_NEAR(bar.value("end.displacement.x"), 0.5 * (4e-3 - 1e-3), 1e-12);
+  EXPECT_NEAR(bar.derivative("moisture.change", "end.displacement.x"), 0.5e-3, 1e-9);
+  EXPECT_NEAR(bar.derivative("temperature.change", "end.displacement.x"), 1e-5, 1e-11);
+  EXPECT_NEAR(bar.derivative("materials.m.expansion.moisture", "end.displacement.x"), 2, 1e-6);
+  EXPECT_NEAR(bar.derivative("materials.m.young", "end.displacement.x"), 0, 1e-18);
+}
+
 // A strip with oblique grain that a following pressure bends by half its length.
 const char* const kStrip = R"(
 analysis: static

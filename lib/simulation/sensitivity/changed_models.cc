@@ -59,8 +59,8 @@ double step_of(const Config& scene, const SceneParameter& parameter, ChangeCount
 }
 
 // Sections of a scene whose numbers are part of the model or of the initial state.
-constexpr std::array kModelSections{"damping", "gravity", "initial", "loads", "materials",
-                                    "mesh",    "motions", "regions", "terms"};
+constexpr std::array kModelSections{"activation", "damping",  "gravity", "initial", "loads",       "materials",
+                                    "mesh",       "moisture", "motions", "regions", "temperature", "terms"};
 // The same of a harmonic analysis.
 constexpr std::array kHarmonicSections{"harmonic.losses.", "harmonic.damping_ratio", "harmonic.base_acceleration."};
 
