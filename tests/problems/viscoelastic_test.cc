@@ -117,6 +117,27 @@ TEST(Viscoelastic, EnergyAccountIsClosed) {
       }
 }
 
+// A closed cycle of strain dissipates pi E'' a^2 with the amplitude a and the loss modulus E''.
+TEST(Viscoelastic, DissipatesTheLossModulusInEachCycle) {
+  constexpr double young = 1e9, share = 0.4, tau = 0.3, omega = 2 * std::numbers::pi, largest = 1e-3;
+  const auto dissipated = [&](int cycles) {
+    return motion_of(fmt::format(R"(
+mesh: {{type: box, size: [0.1, 0.01, 0.01], cells: [4, 1, 1], order: 1}}
+materials: {{m: {{type: isotropic, density: 1000, young: {}, nu: 0, viscoelastic: [{{time: {}, share: {}}}]}}}}
+clamps: [{{surface: x0}}]
+motions: [{{surface: x1, displacement: ['0.1*{}*(1 - cos({}*t))/2', 0, 0]}}]
+time: {{end: {}}}
+integrator: {{type: cvode_bdf, rtol: 1e-7}}
+)",
+                                 young, tau, share, largest, omega, cycles))
+        .energy.dissipated;
+  };
+  const double x = omega * tau, amplitude = largest / 2, volume = 1e-5;
+  const double loss_modulus = young * share * x / (1 + x * x);
+  const double expected = std::numbers::pi * loss_modulus * amplitude * amplitude * volume;
+  EXPECT_NEAR(dissipated(5) - dissipated(4), expected, 1e-3 * expected);
+}
+
 // If the run is much shorter than the relaxation time, the position scale is that of the unrelaxed stiffness; if it is
 // much longer, that of the relaxed one.
 TEST(Viscoelastic, ScalesAreThoseOfTheStiffnessDuringTheRun) {
