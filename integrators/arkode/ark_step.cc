@@ -115,7 +115,9 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
 
   // Before the first step: sets end_ and the accelerations there.
   void begin_at(double t) {
+    before_.reset();
     end_ = {t, positions(y(), extra()), velocities(y(), extra()), Vector(model_.num_dofs())};
+    has_begun_ = false;
     z_end_ = internal_part(y(), extra());
     if (is_split()) {
       initial_acceleration(*explicit_.model, t, explicit_.at_end);
@@ -130,6 +132,8 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
 
   // After each step, whose last stage is its end: sets begin_, end_ and the accelerations at end_.
   void take_end(double t) {
+    if (has_begun_) before_ = {begin_.t, begin_.q, {}, {}};
+    has_begun_ = true;
     std::swap(begin_, end_);
     end_.t = t;
     end_.q = positions(y(), extra());
@@ -161,23 +165,59 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   long retries() const override { return retries_; }
 
   int dense_output(double t, N_Vector out) const override {
-    orthodyn::interpolate(begin_, end_, t, positions(out, extra()), velocities(out, extra()));
-    if (internal_) internal_part(out, extra()) = interpolated_internals(t);
+    auto q = positions(out, extra()), v = velocities(out, extra());
+    const bool is_at_end = t == begin_.t || t == end_.t;
+    if (!is_at_end && spans_vibrations()) interpolate_slow_motion(t, q, v);
+    else orthodyn::interpolate(begin_, end_, t, q, v);
+    if (internal_) internal_part(out, extra()) = interpolated_internals(t, q);
     return 0;
   }
 
-  // The cubic Hermite polynomial through the internal variables and their rates at both ends of the step.
-  Vector interpolated_internals(double t) const {
-    const double h = end_.t - begin_.t, x = (t - begin_.t) / h;
+  // Whether the last step is far longer than vibrations. The velocities and accelerations at its ends then have errors
+  // that are small beside those of vibrations, but would move positions within the step by many times their tolerance.
+  bool spans_vibrations() const {
+    constexpr double kFarLonger = 10;
+    return end_.t - begin_.t > kFarLonger * scales_.position / scales_.velocity;
+  }
+
+  // The parabola through the last three ends of steps; a straight line in the first step.
+  void interpolate_slow_motion(double t, VectorRef q, VectorRef v) const {
+    const double h = end_.t - begin_.t, u = t - begin_.t;
+    const Vector slope = (end_.q - begin_.q) / h;
+    q = begin_.q + u * slope;
+    v = slope;
+    if (!before_) return;
+    const Vector curvature = (slope - (begin_.q - before_->q) / (begin_.t - before_->t)) / (end_.t - before_->t);
+    q += u * (u - h) * curvature;
+    v += (2 * u - h) * curvature;
+  }
+
+  // The internal variables at a time within the step at which the positions are q. Those that relax more slowly than
+  // the step: the cubic Hermite polynomial through the values and rates at both ends. For the others rates would
+  // magnify errors by h/tau: they lag behind the strain as with strains of constant rate (advance_of_history()).
+  Vector interpolated_internals(double t, const ConstVectorRef& q) const {
+    const double h = end_.t - begin_.t, u = t - begin_.t, x = u / h;
     if (!(h > 0)) return z_end_;
-    const auto rate = [&](const StepEnd& at, const Vector& z) -> Vector {
-      Vector e(z.size());
-      internal_->internal().strains(at.t, at.q, e);
-      return (e - z).cwiseQuotient(internal_->internal().relaxation_times());
-    };
-    const Vector change = z_end_ - z_begin_;
-    return z_begin_ + x * x * (3 - 2 * x) * change + h * x * (1 - x) * (1 - x) * rate(begin_, z_begin_) -
-           h * x * x * (1 - x) * rate(end_, z_end_);
+    const InternalVariables& internal = internal_->internal();
+    const Vector& tau = internal.relaxation_times();
+    Vector e0(tau.size()), e1(tau.size()), e(tau.size()), z(tau.size());
+    internal.strains(begin_.t, begin_.q, e0);
+    internal.strains(end_.t, end_.q, e1);
+    internal.strains(t, q, e);
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      const double z0 = z_begin_[i], z1 = z_end_[i];
+      if (tau[i] > h) {
+        z[i] = z0 + x * x * (3 - 2 * x) * (z1 - z0) + h * x * (1 - x) * (1 - x) * (e0[i] - z0) / tau[i] -
+               h * x * x * (1 - x) * (e1[i] - z1) / tau[i];
+      } else {
+        const auto lag = [&](double after) {  // z - e
+          const double decay = std::exp(-after / tau[i]);
+          return -tau[i] * (e1[i] - e0[i]) / h * (1 - decay) - decay * (e0[i] - z0);
+        };
+        z[i] = e[i] + lag(u) + x * (z1 - e1[i] - lag(h));
+      }
+    }
+    return z;
   }
 
   Reason classify(int flag) const override {
@@ -197,7 +237,7 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
     }
   }
 
-  std::size_t own_bytes() const override { return 3 * static_cast<std::size_t>(size()) * sizeof(sunrealtype); }
+  std::size_t own_bytes() const override { return 4 * static_cast<std::size_t>(size()) * sizeof(sunrealtype); }
 
   // Measurements of these settings are in docs/decisions.md.
   void use_newton() {
@@ -279,9 +319,11 @@ class ArkStep final : private OwnedMethod, public SundialsIntegrator {
   }
 
   ArkPart explicit_, implicit_;
-  long retries_ = 0;        // steps restarted because a force could not be evaluated, since the last (re-)start
-  StepEnd begin_, end_;     // ends of the last step
-  Vector z_begin_, z_end_;  // internal variables there
+  long retries_ = 0;               // steps restarted because a force could not be evaluated, since the last (re-)start
+  StepEnd begin_, end_;            // ends of the last step
+  std::optional<StepEnd> before_;  // begin of the step before it, t and q only; empty after a restart
+  bool has_begun_ = false;         // whether a step has been taken since the start
+  Vector z_begin_, z_end_;         // internal variables there
   std::optional<StageNewton> stage_newton_;
   std::unique_ptr<void, FreeArkStep> memory_;
 };

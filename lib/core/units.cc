@@ -162,8 +162,8 @@ double quantity_in(const std::string& text, const std::string& unit) {
   const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
   if (!given) fail(fmt::format("'{}': the unit '{}' is not known{}", text, name, other_capitals(name)));
   if (unit.empty() && is_ratio(given.get()))
-    fail(fmt::format("'{}': the unit {} is not allowed here; write {:.6g}", text, name,
-                     number * size_of_ratio(given.get())));
+    fail(fmt::format("'{}': the unit {} is not allowed here; write {:.6g}, or {:.6g} if the quantity is in per cent",
+                     text, name, number * size_of_ratio(given.get()), 100 * number * size_of_ratio(given.get())));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Unit wanted = parse(unit);
   if (!wanted) fail(fmt::format("'{}'; give a plain number", text));  // for example bytes, which UDUNITS does not know

@@ -117,6 +117,43 @@ TEST(Viscoelastic, EnergyAccountIsClosed) {
       }
 }
 
+// Steps far longer than vibrations and than relaxation: values within them, and with them the energy account, are
+// right.
+TEST(Viscoelastic, SlowMotionIsInterpolatedAccurately) {
+  constexpr double young = 1e9, share = 0.4, tau = 1e-9, length = 0.1, area = 1e-4, force = 100, period = 7;
+  const std::string scene = fmt::format(R"(
+mesh: {{type: box, size: [{}, 0.01, 0.01], cells: [4, 1, 1], order: 1}}
+materials: {{m: {{type: isotropic, density: 1000, young: {}, nu: 0, viscoelastic: [{{time: {}, share: {}}}]}}}}
+clamps: [{{surface: x0}}]
+loads: [{{surface: x1, force: [{}, 0, 0], factor: {{type: expression, formula: '(1 - cos(2*pi*t/{}))/2'}}}}]
+time: {{end: 14}}
+output: {{probes: {{end: {{at: [{}, 0, 0]}}}}}}
+integrator: {{type: arkode_dirk, rtol: 1e-4}}
+)",
+                                        length, young, tau, share, force, period, length);
+  const BuiltTestScene s(scene);
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+  integrator->start(s.built.initial);
+  const double largest = force * length / (young * (1 - share) * area);
+  double worst = 0, before = 0;
+  int steps = 0;
+  while (before < s.scene.time.end) {
+    const double t = integrator->step(s.scene.time.end).t;
+    for (const double x : {0.25, 0.5, 0.75}) {
+      State at;
+      const double middle = before + x * (t - before);
+      integrator->interpolate(middle, at);
+      const double exact = largest * (1 - std::cos(2 * std::numbers::pi * middle / period)) / 2;
+      worst = std::max(worst, std::abs(at.q.maxCoeff() - exact));
+    }
+    before = t;
+    ++steps;
+  }
+  EXPECT_LE(steps, 2000);  // far longer than vibrations, of which there are a million
+  EXPECT_LE(worst, 5e-3 * largest);
+  EXPECT_LE(std::abs(motion_of(scene).drift), 2e-2 * force * largest / 2);
+}
+
 // A closed cycle of strain dissipates pi E'' a^2 with the amplitude a and the loss modulus E''.
 TEST(Viscoelastic, DissipatesTheLossModulusInEachCycle) {
   constexpr double young = 1e9, share = 0.4, tau = 0.3, omega = 2 * std::numbers::pi, largest = 1e-3;

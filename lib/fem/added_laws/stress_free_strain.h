@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,8 +35,11 @@ class StressFreeStrain {
     return {causes, [t](const PointValues& values) { return values.at(t); }, factor};
   }
 
+  // The largest size from `start` to `end` (s). Peaks of several causes add up, as they may be at different times.
   static StressFreeStrain peak(const std::vector<Swelling>& causes, double start, double end) {
-    return {causes, [start, end](const PointValues& values) { return values.at_peak(start, end); }};
+    StressFreeStrain sum(causes, [start, end](const PointValues& values) { return values.at_peak(start, end); });
+    sum.is_peak_ = true;
+    return sum;
   }
 
   bool is_zero() const { return parts_.empty(); }
@@ -57,11 +61,25 @@ class StressFreeStrain {
   template <class ValueOf>
   Vec3T<Batch> sum(ValueOf&& value_of) const {
     Vec3T<Batch> e = Vec3T<Batch>::Zero();
-    for (const Part& part : parts_) e += value_of(*part.change) * part.coefficients.cast<Batch>();
+    for (const Part& part : parts_) {
+      const Vec3T<Batch> own = value_of(*part.change) * part.coefficients.cast<Batch>();
+      if (is_peak_) add_peak(own, e);
+      else e += own;
+    }
     return e;
   }
 
+  static void add_peak(const Vec3T<Batch>& own, Vec3T<Batch>& e) {
+    for (int i = 0; i < 3; ++i) {
+      double lanes[Batch::kLanes];
+      for (int l = 0; l < Batch::kLanes; ++l)
+        lanes[l] = e[i][l] + std::copysign(own[i][l], e[i][l] != 0 ? e[i][l] : own[i][l]);
+      e[i] = Batch::load(lanes);
+    }
+  }
+
   std::vector<Part> parts_;
+  bool is_peak_ = false;
 };
 
 }  // namespace ORTHODYN_LANES

@@ -10,13 +10,17 @@ namespace {
 constexpr double kFarBeyond = 100;  // relaxation time over duration; less than 1 % relaxes
 
 void check_times(const CheckContext& context, const Config& place, const Viscoelasticity& branches, Warnings& out) {
+  const bool from_equilibrium = context.scene.start == Start::equilibrium;
   for (std::size_t i = 0; i < branches.size(); ++i)
     if (branches[i].time > kFarBeyond * context.span())
-      warn(
-          out, place.at(i).at("time").where(),
-          "{:.4g} s is {:.2g} times the duration of the run, {:.4g} s: hardly anything relaxes. Is it in another unit? "
-          "If not, remove the entry",
-          branches[i].time, branches[i].time / context.span(), context.span());
+      warn(out, place.at(i).at("time").where(),
+           "{:.4g} s is {:.2g} times the duration of the run, {:.4g} s: hardly anything relaxes{}. Is it in another "
+           "unit? "
+           "If not, {}",
+           branches[i].time, branches[i].time / context.span(), context.span(),
+           from_equilibrium ? " during the run, but at its start, an equilibrium, everything has relaxed" : "",
+           from_equilibrium ? "give the constants that are left after this relaxation, without the entry"
+                            : "remove the entry");
 }
 
 }  // namespace
