@@ -53,7 +53,9 @@ class IdaBdf final : public SundialsIntegrator {
     require(IDAInit(m, residual, t, y(), y_dot_.get()));
     set_error_weights();
     require(IDASetMaxOrd(m, max_order_));
-    require(IDASetNonlinConvCoef(m, options_.nonlinear_coefficient));
+    // With internal variables, iterations that IDA takes for converged leave torques (docs/decisions.md).
+    constexpr double kWithInternals = 1e-3;
+    require(IDASetNonlinConvCoef(m, (internal_ ? kWithInternals : 1) * options_.nonlinear_coefficient));
     set_step_limits();
     if (model_.constraints()) exclude_multipliers();
     if (!model_.traits().smooth) use_nonsmooth_newton();
