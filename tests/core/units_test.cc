@@ -86,7 +86,8 @@ TEST(Units, AKeyWithoutDimensionTakesPlainNumbersOnly) {
 
 TEST(Units, APercentageIsNamedAsNoUnit) {
   EXPECT_TRUE(holds(refusal_of("30 %", {}),
-                    "expected a plain number, found '30 %': the unit % is not allowed here; write 0.3, or 30 if the quantity is in per cent"));
+                    "expected a plain number, found '30 %': the unit % is not allowed here; write 0.3, or 30 if the "
+                    "quantity is in per cent"));
   EXPECT_TRUE(holds(refusal_of("5 %", {.unit = "Pa"}), "found '5 %': the unit % is not allowed here"));
 }
 
