@@ -297,6 +297,39 @@ output: {probes: {tip: {at: [1, 0.1, 0.1]}}}
   }
 }
 
+// Each value has its own weight: the deflections of two lines, one of which is wrong by a factor and hardly counts.
+TEST_F(FitCommand, WeighsEachValueOfATableByItsOwnDeviation) {
+  write("swing.yaml", R"(
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [2, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+elasticity: {kinematics: linear}
+damping: {mass: 2000}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [1, 0, 0]}]
+time: {end: 20}
+integrator: {type: cvode_bdf, rtol: 1e-7}
+output: {probes: {tip: {at: [1, 0.1, 0.1]}}}
+)");
+  const double at_rest = 1 / (1e6 * 0.01);  // m; the body creeps to it
+  write("data.csv", fmt::format("t [s],x [m],error [m]\n18,{:.17g},1e-9\n20,{:.17g},1e-3\n", at_rest / 2, 2 * at_rest));
+  const auto result = fit(R"(
+experiments:
+  swing:
+    scene: swing.yaml
+    measured: [{quantity: tip.displacement.x, table: data.csv, column: 'x [m]', deviation_column: 'error [m]'}]
+parameters: {E: {path: materials.m.young, start: 1.5e6}}
+)");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NEAR(parameter(0).at("value").get<double>(), 2e6, 2e3);
+  const auto refused = fit(R"(
+experiments:
+  swing: {scene: swing.yaml, measured: [{frequencies: [5 Hz, 6 Hz], deviations: [0.1 Hz]}]}
+parameters: {E: materials.m.young}
+)");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("give one for each"), std::string::npos) << refused.output;
+}
+
 TEST_F(FitCommand, RefusesAParameterWithoutEffect) {
   const auto result = fit(strip_fit(values(), "  rho: materials.ply.density\n"));
   EXPECT_EQ(result.exit_code, 2);

@@ -63,10 +63,19 @@ class Reader {
                         k + 1));
       before = matching.frequencies[k] = value;
       add_frequency(m, static_cast<int>(k) + 1, value, is_matched);
+      if (!m.deviations.empty()) data_.back().deviation = deviation_of_frequency(m, k);
     }
     if (before == 0) m.origin.fail("frequencies: none was measured, all are null");
     if (m.shapes) read_shapes(m, *built_.model, matching);
     if (is_matched) matchings_.push_back(std::move(matching));
+  }
+
+  static double deviation_of_frequency(const Measurement& m, std::size_t k) {
+    try {
+      return read_number(parsed(m.deviations[k]), {.unit = "Hz", .range = kPositive});
+    } catch (const ConfigError& e) {
+      m.origin.fail(fmt::format("deviations: number {}: {}", k + 1, e.what()));
+    }
   }
 
   // `is_matched`: `mode` is the number of the frequency in the next entry of `matchings_`.
@@ -104,6 +113,8 @@ class Reader {
     const std::size_t values = column(m.column);
     const std::size_t over = m.over.empty() ? 0 : column(m.over);
     if (values == over) m.origin.fail("'column' and 'over' are the same column; name another one");
+    const std::optional<std::size_t> deviations =
+        m.deviation_column.empty() ? std::nullopt : std::optional(column(m.deviation_column));
     const double over_factor = factor_of(unit_in(table.names[over]), scene_.harmonic ? "Hz" : "s", m.origin);
     const std::string unit = m.unit.empty() ? unit_in(m.column) : m.unit;
     std::size_t count = 0;
@@ -117,6 +128,14 @@ class Reader {
       const std::string si = si_unit(metric);
       push(m, metric, title_of(metric), y * factor_of(unit, si, m.origin), si, unit.empty() ? si : unit);
       data_.back().over = x;
+      if (deviations) {
+        const std::string own = unit_in(m.deviation_column);
+        const double deviation = table.at(row, *deviations) * factor_of(own.empty() ? unit : own, si, m.origin);
+        if (!(deviation > 0))
+          throw ConfigError(table.where(row),
+                            fmt::format("the standard deviation in column '{}' must be positive", m.deviation_column));
+        data_.back().deviation = deviation;
+      }
       if (m.time_offset) data_.back().series = series_.size();
       ++count;
     }
@@ -177,7 +196,9 @@ class Reader {
   void push(const Measurement& m, const WantedMetric& metric, const std::string& title, double value,
             const std::string& si, const std::string& unit) {
     if (m.deviation) m.deviation->require(si, m.origin);
-    const double deviation = m.deviation ? m.deviation->si() : *m.relative * std::abs(value);
+    const double deviation = m.deviation  ? m.deviation->si()
+                             : m.relative ? *m.relative * std::abs(value)
+                                          : kNotANumber;  // set by the caller
     const bool is_candidate = std::isnan(value);
     if (!(deviation > 0) && m.relative && !is_candidate)
       m.origin.fail(fmt::format("the value {} has no relative deviation: give 'deviation'", value));

@@ -1,5 +1,7 @@
 #include "lib/study/fit/fit.h"
 
+#include <fmt/format.h>
+
 #include "lib/simulation/run/scene_file.h"
 
 namespace orthodyn {
@@ -49,12 +51,18 @@ void check_matching(const Measurement& m, const Config& config) {
 void check_measurement(const Measurement& m, const Config& config) {
   const int kinds = !m.quantity.empty() + m.mode.has_value() + !m.frequencies.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode, frequencies");
-  if (m.deviation.has_value() == m.relative.has_value())
+  if (m.deviation.has_value() + m.relative.has_value() + !m.deviation_column.empty() + !m.deviations.empty() != 1)
     config.fail(
-        "give the standard deviation of the measurement: 'deviation' in its unit, or 'relative' (0.01 for 1 %)");
+        "give the standard deviation of the measurement by one of: 'deviation' in its unit; 'relative' (0.01 for 1 %); "
+        "'deviation_column' of a table; 'deviations', one for each of 'frequencies'");
   const auto refuse = [&](bool is_given, const char* key, const char* reason) {
     if (is_given) config.at(key).fail(std::string("is not used ") + reason + "; remove it");
   };
+  refuse(!m.deviation_column.empty() && !m.table, "deviation_column", "without 'table'");
+  if (!m.deviations.empty() && m.deviations.size() != m.frequencies.size())
+    config.at("deviations")
+        .fail(fmt::format("has {} entries, and 'frequencies' has {}: give one for each", m.deviations.size(),
+                          m.frequencies.size()));
   if (!m.frequencies.empty()) {
     refuse(m.value.has_value(), "value", "with 'frequencies', which are values themselves");
     refuse(m.table.has_value(), "table", "with 'frequencies', which are values themselves");
@@ -159,6 +167,11 @@ const Spec<Measurement>& Measurement::spec() {
           .key("relative", &Measurement::relative,
                "Standard deviation as a fraction of each measured value; of a candidate, of its computed value.",
                {.range = kPositive})
+          .key("deviation_column", &Measurement::deviation_column,
+               "Column of the table with the standard deviation of each value, in the unit of the values unless its "
+               "name has one in brackets.")
+          .key("deviations", &Measurement::deviations,
+               "Standard deviations of `frequencies`, one for each: [0.3 Hz, 0.5 Hz]; null where it was not measured.")
           .key("gain", &Measurement::gain,
                "The instrument reads gain * quantity + offset, and the gain is estimated with the parameters: {start, "
                "deviation}, such as {deviation: 0.02} for a gauge whose factor is known to 2 %.")

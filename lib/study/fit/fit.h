@@ -42,8 +42,10 @@ struct Measurement {
   std::optional<FilePath> table;           // CSV
   std::string column, over;                // columns of the table: of the values; of the times or frequencies
   std::string unit;                        // of the column's values; default the one in its heading, else SI
-  std::optional<QuantityValue> deviation;  // standard deviation; exactly one of the two
+  std::optional<QuantityValue> deviation;  // standard deviation; exactly one of the four
   std::optional<double> relative;          // standard deviation relative to the value
+  std::string deviation_column;            // of the table: the standard deviation of each value
+  std::vector<YamlText> deviations;        // of `frequencies`; null for one that was not measured
   std::optional<Nuisance> gain, offset, time_offset;  // reading(t) = gain * quantity(t + time_offset) + offset
   SourceLocation origin;
   static const Spec<Measurement>& spec();
