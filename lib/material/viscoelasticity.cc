@@ -86,7 +86,8 @@ std::string why_inadmissible(const Viscoelasticity& branches, const Stiffness& s
   if (smallest > 1e-9) return "";
   return fmt::format(
       "viscoelastic: the relaxed stiffness is not positive definite: in one kind of strain {} of the stiffness is left "
-      "after all relaxation; lower the shares, whose sum must stay below 1 for each constant",
+      "after all relaxation; lower the shares. Their sum must stay below 1 for each constant, and `normal` shares that "
+      "differ between the axes must leave the coupling of the axes (Poisson's ratios) possible",
       smallest > -1e-9 ? "nothing" : fmt::format("{:.4g}", smallest));
 }
 

@@ -118,7 +118,7 @@ void check_added_laws(const Config& config, const Scene& scene) {
     });
     if (!is_used)
       config.at(name).fail(fmt::format(
-          "has no effect: no material has coefficients of expansion; give one `expansion: {{{}: ...}}`", name));
+          "has no effect: no material has coefficients of expansion by {0}; give one `expansion: {{{0}: ...}}`", name));
     if (scene.elasticity.corotation == Corotation::warped)
       config.at(name).fail("is not available with elasticity.corotation: warped; remove one of them");
   };
