@@ -93,6 +93,55 @@ TEST(InputChecks, ANearlyIncompressibleMaterialNeedsTheMixedFormulation) {
   EXPECT_THAT(block("", "elasticity: {corotation: warped}\n"), HasSubstr("remove elasticity.corotation: warped"));
 }
 
+TEST(InputChecks, OfRelaxationAreNamed) {
+  const auto bar = [](const std::string& time, const std::string& more, const std::string& shares = "share: 0.3",
+                      double nu = 0.3) {
+    return findings_of(fmt::format(R"(
+mesh: {{type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e9, nu: {}, viscoelastic: [{{time: {}, {}}}]}}}}
+clamps: [{{surface: x0}}]
+{}
+)",
+                                   nu, time, shares, more))
+        .words;
+  };
+  const std::string slow = "loads: [{surface: x1, force: [0, 0, -1], factor: {type: smooth_step, end: 10}}]\n",
+                    sudden = "loads: [{surface: x1, force: [0, 0, -1]}]\n", run = "time: {end: 1000}\n";
+  EXPECT_EQ(bar("100", slow + run), "");
+  EXPECT_THAT(bar("1e6", slow + run), HasSubstr("hardly anything relaxes. Is it in another unit?"));
+  EXPECT_THAT(bar("1e6", sudden + run + "start: equilibrium\n"), HasSubstr("everything has relaxed"));
+  EXPECT_THAT(bar("100", sudden + "analysis: static\n"), HasSubstr("uses the relaxed stiffness"));
+  EXPECT_THAT(bar("100", sudden + run), HasSubstr("the loads act suddenly and start vibrations"));
+  EXPECT_EQ(bar("100", sudden + run + "damping: {stiffness: 1e-2}\n"), "");
+  EXPECT_THAT(bar("100", slow + run, "share: 0.3", 0.499), HasSubstr("give `deviatoric` shares"));
+  EXPECT_EQ(bar("100", slow + run, "deviatoric: 0.3", 0.499), "");
+  // Nearly incompressible once the shear modulus has relaxed.
+  EXPECT_THAT(
+      bar("100", slow + run + "regions: {all: {material: m, formulation: displacement}}\n", "deviatoric: 0.99", 0.4),
+      HasSubstr("remove formulation: displacement"));
+}
+
+TEST(InputChecks, OfChangesAreNamed) {
+  const auto board = [](const std::string& coefficient, const std::string& change) {
+    return findings_of(fmt::format(R"(
+analysis: static
+mesh: {{type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e9, nu: 0.3, expansion: {{{}}}}}}}
+clamps: [{{surface: x0}}]
+{}
+)",
+                                   coefficient, change))
+        .words;
+  };
+  EXPECT_EQ(board("moisture: 0.002", "moisture: {change: -10}"), "");
+  EXPECT_THAT(board("moisture: 0.002", "moisture: {change: -60}"), HasSubstr("above the fibre saturation"));
+  EXPECT_THAT(board("moisture: 0.2", "moisture: {change: -10}"), HasSubstr("coefficients of expansion are strains"));
+  EXPECT_EQ(board("temperature: 1e-5", "temperature: {change: 100}"), "");
+  EXPECT_THAT(board("temperature: 1e-5", "temperature: {change: 293}"),
+              HasSubstr("looks like an absolute temperature"));
+  EXPECT_THAT(board("temperature: 0.02", "temperature: {change: 100}"), HasSubstr("strains material 'm' by 2"));
+}
+
 // With linear kinematics a rotated body grows by 1/cos of the angle.
 TEST(InputChecks, AFreeBodyThatTurnsIsNotForLinearKinematics) {
   const auto spun = [](double spin, const std::string& kinematics) {

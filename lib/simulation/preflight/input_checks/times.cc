@@ -28,6 +28,15 @@ bool only_swings(const CheckContext& context) {
   return !ends.empty() && *std::ranges::max_element(ends) < context.start() + kEarly * context.span();
 }
 
+// True if loads act on a viscoelastic body from the start on, so that it vibrates while it creeps, without damping.
+bool vibrates_while_it_creeps(const CheckContext& context) {
+  const FemModel& model = *context.built.model;
+  const auto& loads = model.parts().loads;
+  return model.internal_variables() && !model.traits().time_dependent && !context.scene.damping &&
+         context.scene.start != Start::equilibrium &&
+         std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->is_load(); });
+}
+
 void check_span(const CheckContext& context, Warnings& out) {
   const double crossings = context.span() / context.wave_time();
   const std::string place = context.config.at("time").where();
@@ -40,6 +49,12 @@ void check_span(const CheckContext& context, Warnings& out) {
     warn(out, place, "in {:.3g} s a wave goes through the body {:.2g} times: is the end, {:.4g} s, in ms?",
          context.span(), crossings, context.end());
   const double periods = context.span() * context.lowest_bending_frequency() / (2 * std::numbers::pi);
+  if (periods > kMaxPeriods && context.has_supports() && vibrates_while_it_creeps(context))
+    warn(out, place,
+         "the loads act suddenly and start vibrations, about {} periods of {:.2g} s in this run, which relaxation may "
+         "hardly damp: let the loads rise over a far longer time (`factor: {{type: smooth_step, end: ...}}`), or give "
+         "`damping`",
+         factor_text(periods), context.span() / periods);
   const bool is_long = crossings <= kLongest && context.span() > kLongRun && periods > kMaxPeriods;
   if (is_long && context.has_supports() && only_swings(context))
     warn(out, place,
