@@ -57,6 +57,20 @@ class AStudy(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no point has a frame; .*frames: {}"):
             study.view()
 
+    def test_of_measured_values_has_a_row_for_each_parameter(self):
+        scene = {"analysis": "static", "mesh": {"type": "box", "size": [0.5, 0.1, 0.2], "cells": [2, 1, 1], "order": 1},
+                 "materials": {"m": {"type": "isotropic", "density": 1000, "young": "1 GPa", "nu": 0}},
+                 "elasticity": {"kinematics": "linear"}, "clamps": [{"surface": "x0"}],
+                 "loads": [{"surface": "x1", "force": [100, 0, 0]}], "output": {"probes": {"end": {"at": [0.5, 0, 0]}}}}
+        study = orthodyn.fit({"title": "Bar", "experiments": {"bar": {"scene": orthodyn.Scene(scene), "measured": [
+            {"quantity": "end.displacement.x", "value": "1.25 um", "deviation": "0.0125 um"}]}},
+            "parameters": {"E": "materials.m.young"}}, quiet=True)
+        row = study.table.iloc[0]
+        self.assertEqual((row["parameter"], row["unit"]), ("E", "GPa"))
+        self.assertAlmostEqual(row["value"], 2, places=6)  # F L / (A u) = 2 GPa, with 1 % like the deflection
+        self.assertAlmostEqual(row["deviation"] / row["value"], 0.01, places=4)
+        self.assertTrue(study.report.is_file())
+
     def test_that_kept_frames_has_a_view(self):
         study = orthodyn.compare({"title": "t", "scenes": [orthodyn.Scene(beam())], "integrators": ["cvode_bdf"],
                                   "tolerances": [1e-2], "repeats": 1, "frames": {"count": 3}}, "c", quiet=True)
