@@ -53,8 +53,9 @@ class InternalVariables {
   virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, const InternalState& z,
                         TangentKind kind, Linearization& out) const = 0;
 
-  // Adds the force at rest of the part of stress-free strains that internal variables have at their peak from `start`
-  // to `end` (s), for a strain that grows during this time; the rest is that of loads.
+  // Adds the force (N) by which stress-free strains act on the body at rest through its internal variables: for the
+  // peak of these strains from `start` to `end` (s), and a body whose strain grows during this time. The loads of the
+  // model have the other part of the force of these strains.
   virtual void add_peak_force(double start, double end, VectorRef f) const = 0;
 
   // e, and its derivative de/dq dq.

@@ -175,8 +175,8 @@ integrator: {{type: cvode_bdf, rtol: 1e-7}}
   EXPECT_NEAR(dissipated(5) - dissipated(4), expected, 1e-3 * expected);
 }
 
-// If the run is much shorter than the relaxation time, the position scale is that of the unrelaxed stiffness; if it is
-// much longer, that of the relaxed one.
+// The position scale is the deflection of the body with its stiffness at once if the run is much shorter than the
+// relaxation time, and with its relaxed stiffness if the run is much longer.
 TEST(Viscoelastic, ScalesAreThoseOfTheStiffnessDuringTheRun) {
   const auto scene = [](const std::string& more, double end) {
     return fmt::format(R"(

@@ -24,7 +24,8 @@ EXPECTED = {
 LONG = {"cantilever", "drop", "free_flight", "guitar_top", "laminate", "muscle", "stem", "tube_lrt", "tuning_fork", "twist", "xylophone_bar"}
 
 
-# Fit -> the true values of its parameters, in the units of fit.json; those of glass_epoxy_plate are published ones.
+# Fit -> the true values of its parameters, in the units of fit.json. Nobody knows the true constants of the measured
+# plate, glass_epoxy_plate: its entries are typical constants of such plies.
 TRUTH = {
     "spruce_plate": {"E1": 11, "E2": 0.9, "G12": 0.75, "nu12": 0.37},
     "off_axis_strip": {"angle": 25, "E1": 40, "E2": 10},

@@ -8,7 +8,8 @@
 // y_i = z_i + e* with the internal variables z_i and the stress-free strain e*, which causes no stress that could
 // relax:
 //     z_i' = (e - e* - z_i) / tau_i.
-// The rest of the stress of e* is that of swelling with the relaxed stiffness C - sum C_i (swelling.h).
+// This law thus has the part of the swelling stress that can relax, sum C_i:e*. The swelling law (swelling.h) has the
+// other part, (C - sum C_i):e*.
 //
 // In blended states (blend.h) the dissipation is that of states that are not blended.
 #pragma once

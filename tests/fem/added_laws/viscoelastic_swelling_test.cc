@@ -88,8 +88,8 @@ TEST(RelaxingSwelling, OfAFreeBodyHasNoForceAndNothingRelaxes) {
   EXPECT_NEAR(body.output("power.dissipated", kTime, q, none), 0, 1e-14);
 }
 
-// A body that is held at rest has the stress of the stiffness at once if nothing has relaxed, and that of the relaxed
-// stiffness if everything has.
+// Forces and energy of a body that is held are those of an elastic body: with the stiffness at once before relaxation,
+// and with the relaxed stiffness after it.
 TEST_P(Kinematics, OfAHeldBodyRelaxesToTheRelaxedStiffness) {
   const std::string more = "moisture: {change: 0.8}" + with(GetParam());
   const Body body(more, ", viscoelastic: [{time: 0.1, share: 0.3}, {time: 3, share: 0.2}]");
@@ -155,7 +155,7 @@ TEST(RelaxingSwelling, PowerIsTheRateOfTheEnergyInInvertedElements) {
                     one(body.output("power.loads", kTime, q, z)));
 }
 
-// Variables along a history, and the forces at its end, are those of given variables.
+// The force at the end of a history equals the force for the internal variables that the history ends with.
 TEST_P(Kinematics, HistoryHasTheForcesOfItsVariables) {
   const Body body(kMoving + with(GetParam()));
   Random random(434);
