@@ -97,8 +97,8 @@ output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
   EXPECT_NEAR(a.at(3), b.at(3), 1e-2 * std::abs(b.at(3)));
 }
 
-// `auto` computes position_scale and velocity_scale of a viscoelastic body from time.end. A resumed run with a later end
-// must keep the scales of the first run.
+// `auto` computes position_scale and velocity_scale of a viscoelastic body from time.end. A resumed run with a later
+// end must keep the scales of the first run.
 TEST_F(Resume, ABodyThatSwellsAndRelaxesCanBeExtended) {
   write("bar.yaml", R"(
 mesh: {type: box, size: [0.1, 0.01, 0.01], cells: [4, 1, 1], order: 1}
