@@ -40,7 +40,7 @@ std::vector<Vec3> errors_by_duals(const FemModel& model, const State& equilibriu
     for (int component = 0; component < 3; ++component) {
       NodalVector force = NodalVector::Zero(3, nodal.x.cols()), dual = force;
       if (here >= 0) force(component, here) = 1;
-      parts.dofs->restrict_to(force, unit);
+      parts.dofs->restrict_forces_to(force, unit);
       if (model.space().is_zero(unit)) continue;
       solver->solve(unit, response);
       parts.dofs->add_to(response, dual);

@@ -119,7 +119,7 @@ void Linearity::add_correction(double t, const Vector& q, const Terms& terms, Ve
   add_forces(true, terms, nodal.state(), exact);
   add_forces(false, terms, nodal.state(), linear);
   Vector correction(q.size());
-  parts.dofs->restrict_to(exact - linear, correction);
+  parts.dofs->restrict_forces_to(exact - linear, correction);
   f += correction;
 }
 

@@ -19,8 +19,8 @@ namespace {
 constexpr double kHeld = 1e-9;       // smaller singular values, relative to the largest, mean that no clamp resists
 constexpr double kRoundOff = 1e-14;  // of r^T K r, relative to its value with the diagonal of K
 
-// For each node the index of its connected component; -1 for nodes without an element.
-std::vector<int> parts_of(const Mesh& mesh) {
+// For each node the index of its connected component; -1 for nodes without an element. Ties connect bodies.
+std::vector<int> parts_of(const Mesh& mesh, const Ties& ties) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -31,6 +31,8 @@ std::vector<int> parts_of(const Mesh& mesh) {
   const Cells& cells = mesh.cells;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (const int node : cells[c]) parent[static_cast<std::size_t>(root(node))] = root(cells[c][0]);
+  for (const TiedNode& tied : ties.nodes())
+    for (const auto& [leader, weight] : tied.leaders) parent[static_cast<std::size_t>(root(leader))] = root(tied.node);
   std::vector<int> number(mesh.nodes.size(), -1), part(mesh.nodes.size(), -1);
   int count = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
@@ -57,7 +59,7 @@ std::vector<double> clamped_coordinates(const FemModel& model) {
   const DofMap& dofs = *model.parts().dofs;
   std::vector<double> here;
   for (int i = 0; i < dofs.num_nodes(); ++i)
-    for (const int dof : dofs.node(i)) here.push_back(dof < 0 ? 1 : 0);
+    for (const int dof : dofs.node(i)) here.push_back(dof < 0 && !dofs.ties().is_tied(i) ? 1 : 0);
   const Subdomain* subdomain = model.parts().subdomain.get();
   return subdomain ? subdomain->whole_field(here, 3) : here;
 }
@@ -173,7 +175,7 @@ struct FreePart {
 };
 
 std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
-  const auto part_of = parts_of(model.parts().mesh);
+  const auto part_of = parts_of(model.parts().mesh, model.parts().dofs->ties());
   const int count = part_of.empty() ? 0 : *std::max_element(part_of.begin(), part_of.end()) + 1;
   const std::vector<double> clamped = clamped_coordinates(model);
   Linearization at;

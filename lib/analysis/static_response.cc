@@ -23,7 +23,7 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   for (std::size_t k = first; k < first + count; ++k) model.parts().loads[k]->add_peak_force(nodal.state(), end, sum);
   if (model.parts().subdomain) model.parts().subdomain->add_to_owners(sum);
   Vector free(model.num_dofs());
-  model.parts().dofs->restrict_to(sum, free);
+  model.parts().dofs->restrict_forces_to(sum, free);
   return free;
 }
 

@@ -63,7 +63,9 @@ BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetri
   pattern_.n = dofs.num_dofs_here();
   pattern_.symmetric = symmetric;
   pattern_.column_start.push_back(0);
-  const Neighbours neighbours(cells, further, dofs.num_nodes(), symmetric);
+  NodePairs pairs = dofs.ties().couplings(cells, further);
+  pairs.insert(pairs.end(), further.begin(), further.end());
+  const Neighbours neighbours(cells, pairs, dofs.num_nodes(), symmetric);
   std::size_t entries = 0;
   const auto for_each_entry = [&](auto&& entry, auto&& column_end) {
     for (int b = 0; b < dofs.num_nodes(); ++b)
@@ -136,7 +138,20 @@ int BlockPattern::offset(int a, int b) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - begin);
 }
 
+// A block of a symmetric pattern stands for itself and its transpose, which is not stored.
+void BlockPattern::add_to_leaders(int a, int b, const Mat3& block, double* values) const {
+  dofs_.ties().for_each_leader(a, [&](int i, double of_a) {
+    dofs_.ties().for_each_leader(b, [&](int j, double of_b) {
+      const Mat3 share = of_a * of_b * block;
+      if (!symmetric() || i > j || (i == j && a == b)) add(i, j, offset(i, j), share, values);
+      else if (i == j) add(i, i, 0, share + share.transpose(), values);
+      else if (a != b) add(j, i, offset(j, i), share.transpose(), values);
+    });
+  });
+}
+
 void BlockPattern::add(int a, int b, int offset, const Mat3& block, double* values) const {
+  if (dofs_.ties().is_tied(a) || dofs_.ties().is_tied(b)) return add_to_leaders(a, b, block, values);
   const auto& rows = dofs_.node(a);
   const auto& columns = dofs_.node(b);
   int shift = offset;  // position of a's first row in this column

@@ -17,8 +17,8 @@ using NodePairs = std::vector<std::pair<int, int>>;
 
 class BlockPattern {
  public:
-  // Couples the nodes of each cell, and the node pairs in `further`. `symmetric`: store the lower triangle only. `dofs`
-  // must outlive the pattern. Throws ConfigError for more than 2^31 entries.
+  // Couples the nodes of each cell, and the node pairs in `further`, tied nodes by their leaders. `symmetric`: store
+  // the lower triangle only. `dofs` must outlive the pattern. Throws ConfigError for more than 2^31 entries.
   BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetric, const NodePairs& further = {});
 
   const Pattern& pattern() const { return pattern_; }
@@ -30,7 +30,8 @@ class BlockPattern {
   // the nodes are coupled; a >= b in a symmetric pattern. The result is unspecified if either node has no unknowns.
   int offset(int a, int b) const;
 
-  // Adds a 3x3 block to block (a, b) of the matrix; `offset` is offset(a, b).
+  // Adds a 3x3 block to block (a, b) of the matrix; `offset` is offset(a, b). Blocks of tied nodes are added to those
+  // of their leaders.
   void add(int a, int b, int offset, const Mat3& block, double* values) const;
 
   // Whether all coordinates of a node are unknowns. Only for symmetric patterns, like the two functions below.
@@ -46,6 +47,7 @@ class BlockPattern {
   struct Columns {
     int start = 0, length = 0;
   };
+  void add_to_leaders(int a, int b, const Mat3& block, double* values) const;
   const Columns& columns_of(int node) const { return columns_[static_cast<std::size_t>(node)]; }
   void find_columns();
 

@@ -66,8 +66,11 @@ ElementGroups::ElementGroups(const ElementMesh& mesh, const std::vector<int>& ce
   std::vector<Colours> taken(mesh.nodes.size(), 0);  // colours of the groups at each node
   const auto for_each_node = [&](int group, auto&& visit) {
     for (int k = elements(group).begin; k < elements(group).end; ++k)
-      for (const int node : mesh.cells[static_cast<std::size_t>(cells[static_cast<std::size_t>(k)])])
+      for (const int node : mesh.cells[static_cast<std::size_t>(cells[static_cast<std::size_t>(k)])]) {
         visit(taken[static_cast<std::size_t>(node)]);
+        if (mesh.ties && mesh.ties->is_tied(node))
+          mesh.ties->for_each_leader(node, [&](int leader, double) { visit(taken[static_cast<std::size_t>(leader)]); });
+      }
   };
   for (int group = 0; group < size_; ++group) {
     Colours near = 0;

@@ -5,6 +5,7 @@
 
 #include "lib/core/cells.h"
 #include "lib/fem/element_type.h"
+#include "lib/fem/ties/ties.h"
 #include "lib/mesh/mesh.h"
 
 namespace orthodyn {
@@ -12,11 +13,13 @@ namespace orthodyn {
 struct ElementMesh {
   const std::vector<Vec3>& nodes;  // positions at rest, m
   const Cells& cells;
+  const Ties* ties;  // null: no node is tied
 
-  // Both arguments must outlive this object.
+  // All arguments must outlive this object.
   ElementMesh(const std::vector<Vec3>& positions_at_rest, const Cells& its_cells)
-      : nodes(positions_at_rest), cells(its_cells) {}
-  explicit ElementMesh(const Mesh& mesh) : ElementMesh(mesh.nodes, mesh.cells) {}
+      : nodes(positions_at_rest), cells(its_cells), ties(nullptr) {}
+  explicit ElementMesh(const Mesh& mesh, const Ties* its_ties = nullptr)
+      : nodes(mesh.nodes), cells(mesh.cells), ties(its_ties) {}
   ElementMesh(Mesh&&) = delete;
 
   const ElementType& type(std::size_t cell) const { return element_type(cells.shape(cell)); }

@@ -23,7 +23,11 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, con
     parts.subdomain->copy_from_owners(u);
     parts.subdomain->copy_from_owners(u_rate);
   }
-  if (parts.moved) parts.moved->place(at_time, u, u_rate);
+  if (parts.moved) {
+    parts.moved->place(at_time, u, u_rate);
+    parts.dofs->ties().place(u);
+    parts.dofs->ties().place(u_rate);
+  }
   x = *parts.rest + u;
 }
 
@@ -129,7 +133,7 @@ void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal,
 
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
                  const NodalVector& forces, VectorRef out) {
-  parts.dofs->restrict_to(forces, out);
+  parts.dofs->restrict_forces_to(forces, out);
   if (parts.mass_damping > 0) add_mass_damping(parts, nodal, v, out);
   if (supports_pull(parts)) add_support_pull(parts, nodal, out);
 }

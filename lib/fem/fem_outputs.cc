@@ -170,7 +170,7 @@ double imbalance(const View& view) {
   resting.internal = nodal.internal;
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
-  parts.dofs->add_to(free, forces);
+  parts.dofs->add_forces_to(free, forces);
   if (!forces.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   return forces.cols() > 0 ? std::sqrt(forces.colwise().squaredNorm().maxCoeff()) : 0;
 }

@@ -24,6 +24,7 @@ NodalVector accelerations(const FemModel::Parts& parts, const NodalExpansion& no
   free_forces(parts, nodal, v, forces, free);
   parts.mass->solve(free);
   parts.dofs->add_to(free, a);
+  if (parts.moved) parts.dofs->ties().place(a);
   return a;
 }
 
@@ -102,7 +103,7 @@ double FemStateView::kinetic_energy() const {
 const NodalVector& FemStateView::momentum() const {
   return once(momentum_, [&]() -> NodalVector {
     NodalVector p = NodalVector::Zero(3, nodal_.x.cols());
-    parts_.dofs->add_to(free_momentum(), p);
+    parts_.dofs->add_forces_to(free_momentum(), p);
     if (!parts_.moved) return p;
     const NodalVector moved = held_part(*parts_.dofs, nodal_.u_rate), free = nodal_.u_rate - moved;
     return p + parts_.support_mass->times(moved) + held_part(*parts_.dofs, parts_.support_mass->times(free));
@@ -122,6 +123,7 @@ const NodalVector& FemStateView::support_forces() const {
   return once(support_forces_, [&] {
     NodalVector f = term_forces(parts_, nodal_);
     if (lambda_.size() > 0) f += joint_forces(parts_, nodal_.u, lambda_);
+    parts_.dofs->ties().gather(f);
     const NodalVector a = accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate;
     return held_part(*parts_.dofs, parts_.support_mass->times(a) - f);
   });

@@ -37,7 +37,7 @@ class FemInternalVariables final : public InternalVariables {
     NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
     for (const AddedTerm* term : terms_) term->add_internal_peak_force(nodal.state(), end, sum);
     Vector free(f.size());
-    parts_.dofs->restrict_to(sum, free);
+    parts_.dofs->restrict_forces_to(sum, free);
     f += free;
   }
 
@@ -59,7 +59,7 @@ class FemInternalVariables final : public InternalVariables {
     const NodalExpansion nodal = expansion(t, q, Vector::Zero(q.size()), nullptr);
     NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
     for (const AddedTerm* term : terms_) term->add_force_change(nodal.state(), dz, sum);
-    parts_.dofs->restrict_to(sum, df);
+    parts_.dofs->restrict_forces_to(sum, df);
   }
 
  private:

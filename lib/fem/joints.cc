@@ -97,10 +97,12 @@ class JointConstraints final : public Constraints {
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](const JointPoint& point, double sign, Eigen::Index column, const Vec3& direction) {
       for (const auto& [node, weight] : point.weights)
-        for (std::size_t c = 0; c < 3; ++c)
-          if (const int dof = parts_.dofs->node(node)[c]; dof >= 0)
-            if (const double entry = sign * weight * direction[static_cast<Eigen::Index>(c)]; entry != 0)
-              entries.emplace_back(dof, static_cast<int>(column), entry);
+        parts_.dofs->ties().for_each_leader(node, [&, of_node = sign * weight](int leader, double share) {
+          for (std::size_t c = 0; c < 3; ++c)
+            if (const int dof = parts_.dofs->node(leader)[c]; dof >= 0)
+              if (const double entry = of_node * share * direction[static_cast<Eigen::Index>(c)]; entry != 0)
+                entries.emplace_back(dof, static_cast<int>(column), entry);
+        });
     };
     for_each([&](const JointEquation& e, Eigen::Index i) {
       for (int k = 0; k < e.size(); ++k) {

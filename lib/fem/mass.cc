@@ -1,6 +1,7 @@
 #include "lib/fem/mass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "lib/core/errors.h"
@@ -20,12 +21,36 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
   if (subdomain) subdomain->add_to_owners(nodal_);
   total_ = subdomain ? subdomain->ranks().sum(nodal_.sum()) : nodal_.sum();
   if (kind == MassKind::lumped) {
-    diagonal_.resize(dofs.num_dofs());
-    const NodalVector all = Vec3::Ones() * nodal_.transpose();
-    dofs.restrict_to(all, diagonal_);
+    add_lumped(dofs);
   } else {
     add_consistent(mesh, density, pattern);
   }
+}
+
+// The masses m_s of tied nodes as diagonal entries m_i += w_si m_s have at least 1/e of the kinetic energy with m_s,
+// with e the largest of (m_i + sum_s |w_si| sum_j |w_sj| m_s) / (m_i + sum_s w_si m_s), by Cauchy's inequality.
+void Mass::add_lumped(const DofMap& dofs) {
+  diagonal_.resize(dofs.num_dofs());
+  const NodalVector all = Vec3::Ones() * nodal_.transpose();
+  dofs.restrict_forces_to(all, diagonal_);
+  if (dofs.ties().empty()) return;
+  Vector sums = nodal_, bounds = nodal_;
+  for (const TiedNode& tied : dofs.ties().nodes()) {
+    double absolute = 0;
+    for (const auto& [leader, weight] : tied.leaders) absolute += std::abs(weight);
+    for (const auto& [leader, weight] : tied.leaders) {
+      sums[leader] += weight * nodal_[tied.node];
+      bounds[leader] += std::abs(weight) * absolute * nodal_[tied.node];
+    }
+  }
+  for (const TiedNode& tied : dofs.ties().nodes())
+    for (const auto& [leader, weight] : tied.leaders) {
+      if (!(sums[leader] > 0))
+        throw ConfigError("mass",
+                          "a lumped mass at a tie is not positive; set `mass: consistent`, or swap `first` and "
+                          "`second` of the tie");
+      frequency_excess_ = std::max(frequency_excess_, bounds[leader] / sums[leader]);
+    }
 }
 
 void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern) {
@@ -96,11 +121,19 @@ bool is_held(const DofMap& dofs, int node) {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
+// Adds the mass m between two nodes, or between their leaders, if one of them is held.
+void add_entry(int i, int j, double m, const DofMap& dofs, Entries& entries) {
+  dofs.ties().for_each_leader(i, [&](int a, double of_i) {
+    dofs.ties().for_each_leader(j, [&](int b, double of_j) {
+      if (is_held(dofs, a) || is_held(dofs, b)) entries.emplace_back(a, b, of_i * of_j * m);
+    });
+  });
+}
+
 void add_element(std::span<const int> nodes, const Eigen::MatrixXd& M, const DofMap& dofs, Entries& entries) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = 0; j < nodes.size(); ++j)
-      if (is_held(dofs, nodes[i]) || is_held(dofs, nodes[j]))
-        entries.emplace_back(nodes[i], nodes[j], M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      add_entry(nodes[i], nodes[j], M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), dofs, entries);
 }
 
 }  // namespace
@@ -111,7 +144,9 @@ SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const std::v
   Entries entries;
   if (mass.lumped()) {
     for (int i = 0; i < dofs.num_nodes(); ++i)
-      if (is_held(dofs, i)) entries.emplace_back(i, i, mass.nodal()[i]);
+      dofs.ties().for_each_leader(i, [&](int a, double weight) {
+        if (is_held(dofs, a)) entries.emplace_back(a, a, weight * mass.nodal()[i]);
+      });
   } else {
     for (std::size_t e = 0; e < mesh.cells.size(); ++e)
       add_element(mesh.cells[e], mesh.type(e).consistent_mass(mesh.positions(e), density[e]), dofs, entries);

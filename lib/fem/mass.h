@@ -1,4 +1,5 @@
 // Mass matrix of the free coordinates: lumped (diagonal) or consistent (on the model's pattern).
+// Lumped masses of tied nodes move to their leaders (ties/ties.h), with the weights of the tie.
 //
 //     M_ab = integral of rho N_a N_b dV (consistent),  m_a = sum over elements of rho V s_a (lumped)
 //
@@ -35,7 +36,8 @@ class Mass {
   // Row sums of the mass matrix over all nodes, kg: the nodal forces per unit of uniform acceleration. May be negative
   // for a consistent mass.
   const Vector& row_sums() const { return lumped() ? nodal_ : row_sums_; }
-  // Upper bound of squared frequencies with this mass divided by those with the lumped masses nodal(); 1 if lumped.
+  // Upper bound of squared frequencies with this mass divided by those with the lumped masses nodal(); 1 if lumped
+  // and without tied nodes.
   double frequency_excess() const { return frequency_excess_; }
   // Memory (bytes), including the factor if it exists.
   std::size_t bytes() const;
@@ -49,6 +51,7 @@ class Mass {
   void add_to(double factor, double* values) const;
 
  private:
+  void add_lumped(const DofMap& dofs);
   void add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern);
 
   MassKind kind_;

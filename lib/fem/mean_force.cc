@@ -32,7 +32,7 @@ class MeanForce : public DiscreteGradient {
       const NodalVector rate = NodalExpansion(parts_, t, q0, v).u_rate;
       add_damping(parts_, {t, x, u, rate}, sum);
     }
-    parts_.dofs->restrict_to(sum, f);
+    parts_.dofs->restrict_forces_to(sum, f);
     if (parts_.mass_damping != 0) add_mass_damping(parts_, begin, v, f);
   }
 

@@ -60,7 +60,7 @@ class PartModel : public DerivedModel {
 
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
     const NodalExpansion nodal(whole_.parts(), t, q, v);
-    whole_.parts().dofs->restrict_to(term_forces(whole_.parts(), nodal, terms_), f);
+    whole_.parts().dofs->restrict_forces_to(term_forces(whole_.parts(), nodal, terms_), f);
     if (mass_damping_) add_mass_damping(whole_.parts(), nodal, v, f);
     if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
   }

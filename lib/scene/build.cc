@@ -213,10 +213,13 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   require_size(parts.mesh);
+  Ties ties = make_ties(scene.ties, parts.mesh, loaded.warnings);
+  if (ranks && !ties.empty()) scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
   const auto regions = assign_regions(scene, parts.mesh);
   warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
   ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
+  release_tied_nodes(scene.ties, ties, parts.mesh, supports);
   require_free_coordinates(scene, supports.held);
   NodePairs pairs = couplings(scene, parts.mesh);
 
@@ -231,11 +234,12 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const Subdomain* subdomain = parts.subdomain.get();
   const Mesh& own = subdomain ? part : parts.mesh;
   const int num_nodes = static_cast<int>(own.nodes.size());
-  parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes);
+  parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes,
+                                        std::move(ties));
   const bool symmetric = storage == MatrixStorage::by_elasticity &&
                          std::all_of(regions.begin(), regions.end(),
                                      [&](const Region* r) { return elasticity_of(scene, *r).has_symmetric_tangent(); });
-  const ElementMesh elements(own);
+  const ElementMesh elements(own, &parts.dofs->ties());
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
   if (subdomain) parts.pattern->set_share(*subdomain);
   const auto density = subdomain ? cells_here(elastic.density, *subdomain) : elastic.density;

@@ -27,6 +27,7 @@
 #include "lib/scene/places.h"
 #include "lib/scene/region.h"
 #include "lib/scene/state_change.h"
+#include "lib/scene/tie_input.h"
 #include "lib/statics/equilibrium.h"
 #include "lib/statics/load_stepper.h"
 
@@ -101,6 +102,7 @@ struct Scene {
   std::vector<Clamp> clamps;
   std::vector<SupportMotion> motions;
   std::vector<JointInput> joints;
+  std::vector<TieInput> ties;
   std::optional<Initial> initial;
   Start start = Start::rest;
   TimeSpan time;

@@ -95,10 +95,12 @@ FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
   entries.reserve(static_cast<std::size_t>(3 * nodal_.nonZeros()));
   for (int node = 0; node < to.num_nodes(); ++node)
     for (Rows::InnerIterator at(nodal_, node); at; ++at)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int row = to.node(node)[c], column = from.node(static_cast<int>(at.col()))[c];
-        if (row >= 0 && column >= 0) entries.emplace_back(row, column, at.value());
-      }
+      from.ties().for_each_leader(static_cast<int>(at.col()), [&](int leader, double weight) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const int row = to.node(node)[c], column = from.node(leader)[c];
+          if (row >= 0 && column >= 0) entries.emplace_back(row, column, weight * at.value());
+        }
+      });
   lift_.resize(to.num_dofs(), from.num_dofs());
   lift_.setFromTriplets(entries.begin(), entries.end());
 }

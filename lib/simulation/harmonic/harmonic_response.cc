@@ -29,7 +29,7 @@ Vector force_of_base(const FemModel& model, const Vec3& acceleration) {
   const Vector& masses = model.parts().mass->row_sums();
   const NodalVector forces = -acceleration * masses.transpose();
   Vector out(model.num_dofs());
-  model.parts().dofs->restrict_to(forces, out);
+  model.parts().dofs->restrict_forces_to(forces, out);
   return out;
 }
 

@@ -52,6 +52,9 @@ GradientQuantity::GradientQuantity(const std::string& name, const Scene& scene, 
       refuse(name, fmt::format("'{}' is no such quantity", rest));
     const int node = nearest_node(model.parts().mesh, probe.at);
     unknown_ = model.parts().dofs->node(node)[axes.find(component)];
+    if (model.parts().dofs->ties().is_tied(node))
+      refuse(name,
+             "the nearest node is tied to another surface; move the probe to a node of that surface or away from it");
     if (unknown_ < 0) refuse(name, "this coordinate is held or moved by a support");
     is_velocity_ = field == "velocity";
     if (is_velocity_ && scene.is_static()) refuse(name, "the scene is static and has no velocity");
@@ -82,9 +85,11 @@ void GradientQuantity::derivatives(const State& state, VectorRef by_position, Ve
     return;
   }
   for (const auto& [node, slope] : gauge_->by_displacements(of_gauge_, ObservedState(model_, state)))
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (const int unknown = model_.parts().dofs->node(node)[axis]; unknown >= 0)
-        by_position[unknown] += slope[static_cast<Eigen::Index>(axis)];
+    model_.parts().dofs->ties().for_each_leader(node, [&, &of_node = slope](int leader, double weight) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const int unknown = model_.parts().dofs->node(leader)[axis]; unknown >= 0)
+          by_position[unknown] += weight * of_node[static_cast<Eigen::Index>(axis)];
+    });
 }
 
 double GradientQuantity::explicit_derivative(const Config& config, const SceneParameter& parameter, const State& state,

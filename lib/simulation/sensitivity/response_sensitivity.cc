@@ -61,8 +61,10 @@ Vector ResponseSensitivity::output(const ResponseColumn& column) const {
   for (const auto& [probe, entry] : setup_.scene.output.probes) {
     if (probe != column.probe) continue;
     const auto component = static_cast<std::size_t>(column.name.back() - 'x');
-    const int dof = model.parts().dofs->node(nearest_node(model.parts().mesh, entry.at)).at(component);
-    if (dof >= 0) q[dof] = 1;
+    const DofMap& dofs = *model.parts().dofs;
+    dofs.ties().for_each_leader(nearest_node(model.parts().mesh, entry.at), [&](int leader, double weight) {
+      if (const int dof = dofs.node(leader).at(component); dof >= 0) q[dof] += weight;
+    });
   }
   return q;
 }

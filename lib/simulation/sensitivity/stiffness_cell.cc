@@ -46,7 +46,7 @@ Vector StiffnessCell::force(const State& state) const {
   const auto& parts = model_->parts();
   const NodalExpansion nodal(parts, state.t, state.q, state.v, state.load_factor);
   Vector out(model_->num_dofs());
-  parts.dofs->restrict_to(term_forces(parts, nodal, terms_), out);
+  parts.dofs->restrict_forces_to(term_forces(parts, nodal, terms_), out);
   return out / factor_;
 }
 

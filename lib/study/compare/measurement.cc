@@ -45,8 +45,12 @@ class EnergyRecorder : public EnergyMeter {
 std::vector<ProbePoint> probe_points(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   std::vector<ProbePoint> points;
-  for (const auto& [name, probe] : setup.scene.output.probes)
-    points.push_back({name, global_dofs(model, nearest_node(model.parts().mesh, probe.at))});
+  for (const auto& [name, probe] : setup.scene.output.probes) {
+    const int node = nearest_node(model.parts().mesh, probe.at);
+    if (model.parts().dofs->ties().is_tied(node))
+      probe.origin.fail("the nearest node is tied to another surface, and has no unknowns to compare; move the probe");
+    points.push_back({name, global_dofs(model, node)});
+  }
   return points;
 }
 
@@ -54,7 +58,8 @@ std::vector<ProbePoint> probe_points(const Setup& setup) {
 bool is_free(const FemModel& model) {
   const auto& parts = model.parts();
   const bool is_loaded = parts.subdomain ? !parts.load_descriptions.empty() : !parts.loads.empty();
-  return !is_loaded && parts.mass_damping == 0 && model.num_dofs_of_all() == 3 * std::ssize(parts.mesh.nodes);
+  return !is_loaded && parts.mass_damping == 0 &&
+         model.num_dofs_of_all() == 3 * (std::ssize(parts.mesh.nodes) - std::ssize(parts.dofs->ties().nodes()));
 }
 
 // All errors equal to `e`.

@@ -94,7 +94,7 @@ void add_idle_loads(const CheckContext& context, Warnings& out) {
     NodalVector f = NodalVector::Zero(3, nodal.x.cols());
     model.parts().loads[k]->add_peak_force(nodal.state(), context.end(), f);
     Vector free(model.num_dofs());
-    model.parts().dofs->restrict_to(f, free);
+    model.parts().dofs->restrict_forces_to(f, free);
     const std::size_t first = context.scene.gravity ? 1 : 0, loads = first + context.scene.loads.size();
     const Config section = is_gravity  ? context.config.at("gravity")
                            : k < loads ? context.config.at("loads").at(k - first)

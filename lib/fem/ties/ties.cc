@@ -1,0 +1,69 @@
+#include "lib/fem/ties/ties.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+Ties::Ties(int num_nodes, std::vector<TiedNode> nodes)
+    : nodes_(std::move(nodes)), index_(static_cast<std::size_t>(num_nodes), -1) {
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    index_[static_cast<std::size_t>(nodes_[k].node)] = static_cast<int>(k);
+  // Each round replaces the leaders that are tied. A chain without a circle has fewer links than there are nodes.
+  constexpr int kLongestChain = 64;
+  for (int round = 0;; ++round) {
+    bool has_chain = false;
+    std::vector<TiedNode> next = nodes_;
+    for (TiedNode& tied : next) {
+      std::map<int, double> sums;
+      for (const auto& [leader, weight] : tied.leaders) {
+        has_chain = has_chain || is_tied(leader);
+        for_each_leader(leader, [&](int of, double share) { sums[of] += weight * share; });
+      }
+      tied.leaders.assign(sums.begin(), sums.end());
+    }
+    nodes_ = std::move(next);
+    if (!has_chain) return;
+    if (round == kLongestChain)
+      throw ConfigError("ties",
+                        "surfaces follow each other in a circle; let each tie start at a surface that follows none");
+  }
+}
+
+void Ties::place(NodalVector& u) const {
+  for (const TiedNode& tied : nodes_) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [leader, weight] : tied.leaders) sum += weight * u.col(leader);
+    u.col(tied.node) = sum;
+  }
+}
+
+void Ties::gather(NodalVector& forces) const {
+  for (const TiedNode& tied : nodes_) {
+    const Vec3 force = forces.col(tied.node);
+    forces.col(tied.node).setZero();
+    for (const auto& [leader, weight] : tied.leaders) forces.col(leader) += weight * force;
+  }
+}
+
+std::vector<std::pair<int, int>> Ties::couplings(const Cells& cells,
+                                                 const std::vector<std::pair<int, int>>& further) const {
+  std::vector<std::pair<int, int>> out;
+  const auto couple = [&](const auto& nodes) {
+    if (std::none_of(nodes.begin(), nodes.end(), [&](int node) { return is_tied(node); })) return;
+    std::set<int> all;
+    for (const int node : nodes) for_each_leader(node, [&](int leader, double) { all.insert(leader); });
+    for (auto a = all.begin(); a != all.end(); ++a)
+      for (auto b = all.begin(); b != a; ++b) out.emplace_back(*a, *b);
+  };
+  if (empty()) return out;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) couple(cells[cell]);
+  for (const auto& [a, b] : further) couple(std::array{a, b});
+  return out;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,31 @@
+// The section `ties`: surfaces of bodies that are glued together, whose meshes need not match (lib/fem/ties/mortar.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/config/spec.h"
+#include "lib/fem/ties/ties.h"
+#include "lib/mesh/mesh.h"
+
+namespace orthodyn {
+
+struct TieInput {
+  std::string first, second;    // surfaces
+  std::optional<double> reach;  // m
+  SourceLocation origin;
+  static const Spec<TieInput>& spec();
+};
+
+struct Supports;
+
+// The ties of the mesh, whose tied nodes are moved to the second surfaces. Throws ConfigError if surfaces do not lie on
+// each other. Adds a warning if a part of a first surface has no counterpart, or if a node is moved visibly.
+Ties make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings);
+
+// Tied nodes are held by their leaders: takes them out of the supports, and marks them as held. Throws ConfigError if
+// no leader of a clamped or moved node is held too.
+void release_tied_nodes(const std::vector<TieInput>& inputs, const Ties& ties, const Mesh& mesh, Supports& supports);
+
+}  // namespace orthodyn
