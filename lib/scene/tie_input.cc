@@ -25,7 +25,7 @@ const Spec<TieInput>& TieInput::spec() {
           .key("second", &T::second, "Surface that the first one lies on; it may be larger.", {.required = true})
           .key("reach", &T::reach,
                "Largest distance of the two surfaces; default a tenth of the size of the faces of `first`.",
-               {.range = {.low = 0}, .unit = "m"})
+               {.unit = "m", .range = {.low = 0}})
           .check([](const T& tie, const Config& config) {
             if (tie.first == tie.second) config.at("second").fail("is the same surface as `first`");
           });
