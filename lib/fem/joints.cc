@@ -41,15 +41,41 @@ Vec3 place(const JointPoint& point, const NodalVector& nodal) {
   return sum;
 }
 
-// From the second point to the first.
-Vec3 span(const JointEquation& e, const NodalVector& u) {
-  return e.first.rest - e.second.rest + place(e.first, u) - place(e.second, u);
+// The spans r and s of an equation, or their changes or rates.
+struct Spans {
+  Vec3 r, s;
+};
+
+Spans rest_spans(const JointEquation& e) { return {e.first.rest - e.second.rest, e.third.rest - e.second.rest}; }
+
+// From nodal displacements or rates.
+Spans changes(const JointEquation& e, const NodalVector& nodal) {
+  const Vec3 second = place(e.second, nodal);
+  return {place(e.first, nodal) - second, place(e.third, nodal) - second};
 }
 
-// N; that on the second point is opposite.
-Vec3 force_on_first(const JointEquation& e, const NodalVector& u, const Vector& lambda) {
-  if (e.kind == JointEquation::Kind::coincide) return -lambda.head<3>();
-  return -lambda[0] / e.length() * span(e, u);
+Spans spans(const JointEquation& e, const NodalVector& u) {
+  const Spans rest = rest_spans(e), change = changes(e, u);
+  return {rest.r + change.r, rest.s + change.s};
+}
+
+// The derivatives of constraint k of an equation by the places of its three points.
+struct Slopes {
+  Vec3 first, second, third;
+};
+
+Slopes slopes(const JointEquation& e, int k, const NodalVector& u) {
+  if (e.kind == JointEquation::Kind::coincide) return {Vec3::Unit(k), -Vec3::Unit(k), Vec3::Zero()};
+  const auto [r, s] = spans(e, u);
+  return {s / e.length(), -(r + s) / e.length(), r / e.length()};
+}
+
+// Calls visit(point, slope) for the points of an equation.
+template <class Visit>
+void for_each_point(const JointEquation& e, const Slopes& at, Visit&& visit) {
+  visit(e.first, at.first);
+  visit(e.second, at.second);
+  visit(e.third, at.third);
 }
 
 // The joint that has this constraint.
@@ -75,9 +101,10 @@ class JointConstraints final : public Constraints {
     for (const Joint& joint : parts_.joints)
       for (const JointEquation& equation : joint.equations) {
         if (constraint < first + equation.size())
-          return equation.kind == JointEquation::Kind::distance
-                     ? fmt::format("joint {}, distance", joint.name)
-                     : fmt::format("joint {}, {}", joint.name, "xyz"[constraint - first]);
+          return fmt::format("joint {}, {}", joint.name,
+                             equation.kind == JointEquation::Kind::coincide ? std::string(1, "xyz"[constraint - first])
+                             : equation.kind == JointEquation::Kind::distance ? "distance"
+                                                                              : "line");
         first += equation.size();
       }
     return "";
@@ -86,31 +113,28 @@ class JointConstraints final : public Constraints {
   void values(double t, const ConstVectorRef& q, VectorRef g) const override {
     const NodalExpansion nodal(parts_, t, q, Vector::Zero(q.size()));
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Vec3 change = place(e.first, nodal.u) - place(e.second, nodal.u), rest = e.first.rest - e.second.rest;
-      if (e.kind == JointEquation::Kind::coincide) g.segment<3>(i) = change;  // without the digits of the place
-      else g[i] = change.dot(rest + 0.5 * change) / e.length();
+      const Spans rest = rest_spans(e), change = changes(e, nodal.u);
+      if (e.kind == JointEquation::Kind::coincide) g.segment<3>(i) = change.r;  // without the digits of the place
+      else g[i] = (change.r.dot(rest.s + change.s) + rest.r.dot(change.s)) / e.length();
     });
   }
 
   Eigen::SparseMatrix<double> jacobian(double t, const ConstVectorRef& q) const override {
     const NodalExpansion nodal(parts_, t, q, Vector::Zero(q.size()));
     std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](const JointPoint& point, double sign, Eigen::Index column, const Vec3& direction) {
+    const auto add = [&](const JointPoint& point, Eigen::Index column, const Vec3& slope) {
       for (const auto& [node, weight] : point.weights)
-        parts_.dofs->ties().for_each_leader(node, [&, of_node = sign * weight](int leader, double share) {
+        parts_.dofs->ties().for_each_leader(node, [&, of_node = weight](int leader, double share) {
           for (std::size_t c = 0; c < 3; ++c)
             if (const int dof = parts_.dofs->node(leader)[c]; dof >= 0)
-              if (const double entry = of_node * share * direction[static_cast<Eigen::Index>(c)]; entry != 0)
+              if (const double entry = of_node * share * slope[static_cast<Eigen::Index>(c)]; entry != 0)
                 entries.emplace_back(dof, static_cast<int>(column), entry);
         });
     };
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      for (int k = 0; k < e.size(); ++k) {
-        const Vec3 direction =
-            e.kind == JointEquation::Kind::coincide ? Vec3(Vec3::Unit(k)) : Vec3(span(e, nodal.u) / e.length());
-        add(e.first, 1, i + k, direction);
-        add(e.second, -1, i + k, direction);
-      }
+      for (int k = 0; k < e.size(); ++k)
+        for_each_point(e, slopes(e, k, nodal.u),
+                       [&](const JointPoint& point, const Vec3& slope) { add(point, i + k, slope); });
     });
     Eigen::SparseMatrix<double> out(q.size(), size_);
     out.setFromTriplets(entries.begin(), entries.end());
@@ -120,21 +144,20 @@ class JointConstraints final : public Constraints {
   void rates(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef g_rate) const override {
     const NodalExpansion nodal(parts_, t, q, v);
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Vec3 rate = place(e.first, nodal.u_rate) - place(e.second, nodal.u_rate);
-      if (e.kind == JointEquation::Kind::coincide) g_rate.segment<3>(i) = rate;
-      else g_rate[i] = rate.dot(span(e, nodal.u)) / e.length();
+      const Spans at = spans(e, nodal.u), rate = changes(e, nodal.u_rate);
+      if (e.kind == JointEquation::Kind::coincide) g_rate.segment<3>(i) = rate.r;
+      else g_rate[i] = (rate.r.dot(at.s) + at.r.dot(rate.s)) / e.length();
     });
   }
 
   void curvature(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef c) const override {
     const NodalExpansion nodal(parts_, t, q, v);
-    const NodalVector a =
-        parts_.moved ? parts_.moved->accelerations(t) : NodalVector(NodalVector::Zero(3, nodal.x.cols()));
+    NodalVector a = parts_.moved ? parts_.moved->accelerations(t) : NodalVector(NodalVector::Zero(3, nodal.x.cols()));
+    if (parts_.moved) parts_.dofs->ties().place(a);
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Vec3 of_supports = place(e.first, a) - place(e.second, a);
-      const Vec3 rate = place(e.first, nodal.u_rate) - place(e.second, nodal.u_rate);
-      if (e.kind == JointEquation::Kind::coincide) c.segment<3>(i) = of_supports;
-      else c[i] = (rate.squaredNorm() + of_supports.dot(span(e, nodal.u))) / e.length();
+      const Spans at = spans(e, nodal.u), rate = changes(e, nodal.u_rate), of_supports = changes(e, a);
+      if (e.kind == JointEquation::Kind::coincide) c.segment<3>(i) = of_supports.r;
+      else c[i] = (2 * rate.r.dot(rate.s) + of_supports.r.dot(at.s) + at.r.dot(of_supports.s)) / e.length();
     });
   }
 
@@ -161,21 +184,27 @@ NodalVector joint_forces(const FemModel::Parts& parts, const NodalVector& u, con
   Eigen::Index first = 0;
   for (const Joint& joint : parts.joints)
     for (const JointEquation& e : joint.equations) {
-      const Vec3 force = force_on_first(e, u, lambda.segment(first, e.size()));
-      for (const auto& [node, weight] : e.first.weights) f.col(node) += weight * force;
-      for (const auto& [node, weight] : e.second.weights) f.col(node) -= weight * force;
+      for (int k = 0; k < e.size(); ++k)
+        for_each_point(e, slopes(e, k, u), [&](const JointPoint& point, const Vec3& slope) {
+          for (const auto& [node, weight] : point.weights) f.col(node) -= weight * lambda[first + k] * slope;
+        });
       first += e.size();
     }
   return f;
 }
 
+// The third point belongs to the first body if the distance is kept, else to the second one.
 Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalVector& u, const Vector& lambda) {
   if (lambda.size() == 0) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3 sum = Vec3::Zero();
   Eigen::Index first = 0;
   for (const Joint& other : parts.joints)
     for (const JointEquation& e : other.equations) {
-      if (&other == &joint) sum += force_on_first(e, u, lambda.segment(first, e.size()));
+      for (int k = 0; k < e.size() && &other == &joint; ++k) {
+        const Slopes at = slopes(e, k, u);
+        sum -= lambda[first + k] * at.first;
+        if (e.kind == JointEquation::Kind::distance) sum -= lambda[first + k] * at.third;
+      }
       first += e.size();
     }
   return sum;

@@ -23,13 +23,24 @@ struct JointPoint {
 // if the nodes lie in a plane or on a line that does not contain the point.
 JointPoint joint_point(const Mesh& mesh, const std::vector<int>& nodes, const Vec3& point);
 
-// Two points that coincide, or that keep their distance at rest.
+// coincide: two points are one. distance: two points keep their distance at rest. across: the span from the second
+// point to the first one stays at right angles to that from the second point to the third one.
+//
+// Both of the latter keep the product r . s of two spans, g = (r . s - r0 . s0) / length(): r from the second to the
+// first point and s from the second to the third one, which is the first one if the distance is kept.
 struct JointEquation {
-  enum class Kind { coincide, distance };
-  Kind kind = Kind::coincide;
-  JointPoint first, second;
+  enum class Kind { coincide, distance, across };
+  static JointEquation coincide(JointPoint a, JointPoint b) { return {Kind::coincide, std::move(a), std::move(b), {}}; }
+  static JointEquation distance(const JointPoint& a, JointPoint b) { return {Kind::distance, a, std::move(b), a}; }
+  static JointEquation across(JointPoint a, JointPoint b, JointPoint c) {
+    return {Kind::across, std::move(a), std::move(b), std::move(c)};
+  }
+
+  Kind kind;
+  JointPoint first, second, third;
   int size() const { return kind == Kind::coincide ? 3 : 1; }
-  double length() const { return (first.rest - second.rest).norm(); }  // m
+  // The derivative of r . s by the first constraint's distance, m.
+  double length() const { return (kind == Kind::distance ? 2 : 1) * (third.rest - second.rest).norm(); }
 };
 
 struct Joint {

@@ -19,7 +19,9 @@ void check_joint(const JointInput& joint, const Config& config) {
   if (!is_ball && joint.at) config.at("at").fail("is for ball joints; give `from` and `to`");
   if (!is_ball && (!joint.from || !joint.to))
     config.fail(joint.type == JointType::hinge ? "a hinge needs `from` and `to`, the ends of its pin"
-                                               : "a distance needs `from`, on the first body, and `to`, on the second");
+                : joint.type == JointType::distance
+                    ? "a distance needs `from`, on the first body, and `to`, on the second"
+                    : "needs `from` and `to`, two points of the line along which the first body slides");
   if (!is_ball && (*joint.from - *joint.to).norm() == 0) config.at("to").fail("is the same point as `from`");
 }
 
@@ -29,13 +31,20 @@ const Spec<JointInput>& JointInput::spec() {
   using J = JointInput;
   static const auto s =
       Spec<J>()
-          .key("type", &J::type,
-               "ball: a point of both bodies; hinge: two points, the ends of a pin; distance: a massless rod.",
-               {.required = true})
+          .key(
+              "type", &J::type,
+              "ball: a point of both bodies; hinge: two points, the ends of a pin; distance: a massless rod; slot: the "
+              "point `from` of the first body stays on the line of the second one through `from` and `to`; "
+              "cylindrical: "
+              "both points of the first body stay on this line; slider: they do, and the bodies do not turn about it.",
+              {.required = true})
           .key("name", &J::name, "Name of the outputs, such as joint.NAME.", {.required = true})
           .key("at", &J::at, "The point of a ball joint.", {.unit = "m"})
-          .key("from", &J::from, "First end of the pin of a hinge, or of the rod, on the first body.", {.unit = "m"})
-          .key("to", &J::to, "Second end of the pin of a hinge, or of the rod, on the second body.", {.unit = "m"})
+          .key("from", &J::from,
+               "First end of the pin of a hinge, of the rod, on the first body, or of the line of a slot or slider.",
+               {.unit = "m"})
+          .key("to", &J::to, "Second end of the pin of a hinge, of the rod, on the second body, or of the line.",
+               {.unit = "m"})
           .key("first", &J::first, "Nodes of the first body that hold the joint.", {.required = true})
           .key("second", &J::second, "Nodes of the second body that hold the joint; default: a point fixed in space.")
           .check(check_joint);
@@ -54,16 +63,28 @@ Joint JointInput::on(const Mesh& mesh) const {
     return found;
   };
   const auto of_second = [&](const Vec3& point) { return second ? held(*second, point) : JointPoint{{}, point}; };
-  using Kind = JointEquation::Kind;
+  const auto coincide = [&](const Vec3& point) {
+    return JointEquation::coincide(held(first, point), of_second(point));
+  };
+  // `from + along` and `from + offset` are points of the first and of the second body.
+  const auto across = [&](const Vec3& along, const Vec3& offset) {
+    return JointEquation::across(held(first, *from + along), of_second(*from), of_second(*from + offset));
+  };
   switch (type) {
-    case JointType::ball: return {name, origin.where, {{Kind::coincide, held(first, *at), of_second(*at)}}};
-    case JointType::hinge:
-      return {
-          name,
-          origin.where,
-          {{Kind::coincide, held(first, *from), of_second(*from)}, {Kind::coincide, held(first, *to), of_second(*to)}}};
-    default: return {name, origin.where, {{Kind::distance, held(first, *from), of_second(*to)}}};
+    case JointType::ball: return {name, origin.where, {coincide(*at)}};
+    case JointType::hinge: return {name, origin.where, {coincide(*from), coincide(*to)}};
+    case JointType::distance:
+      return {name, origin.where, {JointEquation::distance(held(first, *from), of_second(*to))}};
+    default: break;
   }
+  const Vec3 line = *to - *from, side = line.norm() * line.unitOrthogonal(), other = line.normalized().cross(side);
+  const Vec3 start = Vec3::Zero();
+  Joint joint{name, origin.where, {across(start, side), across(start, other)}};
+  if (type == JointType::slot) return joint;
+  joint.equations.push_back(across(line, side));
+  joint.equations.push_back(across(line, other));
+  if (type == JointType::slider) joint.equations.push_back(across(side, other));
+  return joint;
 }
 
 }  // namespace orthodyn

@@ -13,13 +13,18 @@
 namespace orthodyn {
 
 // ball: one point of both bodies. hinge: two points, so that both bodies turn about the line through them. distance: a
-// massless rod between a point of each body.
-enum class JointType { ball, hinge, distance };
+// massless rod between a point of each body. slot: a point of the first body stays on a line of the second one.
+// cylindrical: two points stay on the line. slider: they do, and the first body does not turn about it.
+enum class JointType { ball, hinge, distance, slot, cylindrical, slider };
 
 template <>
 struct EnumNames<JointType> {
-  static constexpr std::array<std::pair<JointType, const char*>, 3> list{
-      {{JointType::ball, "ball"}, {JointType::hinge, "hinge"}, {JointType::distance, "distance"}}};
+  static constexpr std::array<std::pair<JointType, const char*>, 6> list{{{JointType::ball, "ball"},
+                                                                          {JointType::hinge, "hinge"},
+                                                                          {JointType::distance, "distance"},
+                                                                          {JointType::slot, "slot"},
+                                                                          {JointType::cylindrical, "cylindrical"},
+                                                                          {JointType::slider, "slider"}}};
 };
 
 // The nodes of a body that a joint holds.
@@ -31,7 +36,7 @@ struct JointInput {
   JointType type = JointType::ball;
   std::string name;
   std::optional<Vec3> at;        // m, of a ball
-  std::optional<Vec3> from, to;  // m, ends of a hinge's pin or of a rod
+  std::optional<Vec3> from, to;  // m, ends of a hinge's pin, of a rod, or two points of a line
   JointEnd first;
   std::optional<JointEnd> second;  // empty: a point in space
   SourceLocation origin;

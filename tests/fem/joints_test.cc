@@ -33,6 +33,12 @@ const std::string kRod =
     "[1.01, 1, 1]}}, "
     "second: {box: {min: [1.09, -1, -1], max: [2, 2, 2]}}}";
 
+const std::string kAllNodes =
+    "first: {box: {min: [-1, -1, -1], max: [1.01, 1, 1]}}, second: {box: {min: [1.09, -1, -1], max: [2, 2, 2]}}}";
+const std::string kSlider = "{type: slider, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], " + kAllNodes;
+const std::string kCylindrical =
+    "{type: cylindrical, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], " + kAllNodes;
+
 TEST(Bodies, ArePlacedAndNamed) {
   const BuiltTestScene s(two_bars(kRod));
   const Mesh& mesh = s.mesh();
@@ -89,8 +95,11 @@ struct Path {
   Vector q, v, a;
 };
 
-TEST(Joints, HaveTheirDerivatives) {
-  const BuiltTestScene s(two_bars(kRod));
+class EachJoint : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Joints, EachJoint, testing::Values(kRod, kSlider, kCylindrical));
+
+TEST_P(EachJoint, HasItsDerivatives) {
+  const BuiltTestScene s(two_bars(GetParam()));
   const Path path(s);
   const Constraints& constraints = path.constraints;
   const auto values = [&](double t) {
@@ -112,23 +121,21 @@ TEST(Joints, HaveTheirDerivatives) {
 }
 
 // The forces of a joint have no resultant and no torque about any point.
-TEST(Joints, ForcesOfBothSidesCancel) {
-  for (const std::string& joint : {kRod}) {
-    const BuiltTestScene s(two_bars(joint));
-    const Path path(s);
-    const NodalVector x = s.positions(path.q);
-    const NodalVector f =
-        joint_forces(s.model().parts(), x - *s.model().parts().rest, Vector::Constant(path.constraints.size(), 2));
-    EXPECT_GE(f.norm(), 0.1);
-    EXPECT_LE(f.rowwise().sum().norm(), 1e-14);
-    Vec3 torque = Vec3::Zero();
-    for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vec3(x.col(i)).cross(Vec3(f.col(i)));
-    EXPECT_LE(torque.norm(), 1e-14);
-    Vector on_dofs(s.size());
-    s.model().parts().dofs->restrict_to(f, on_dofs);
-    EXPECT_LE((on_dofs + path.constraints.jacobian(0, path.q) * Vector::Constant(path.constraints.size(), 2)).norm(),
-              1e-14);
-  }
+TEST_P(EachJoint, HasForcesThatCancel) {
+  const BuiltTestScene s(two_bars(GetParam()));
+  const Path path(s);
+  const NodalVector x = s.positions(path.q);
+  const NodalVector f =
+      joint_forces(s.model().parts(), x - *s.model().parts().rest, Vector::Constant(path.constraints.size(), 2));
+  EXPECT_GE(f.norm(), 0.1);
+  EXPECT_LE(f.rowwise().sum().norm(), 1e-14);
+  Vec3 torque = Vec3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vec3(x.col(i)).cross(Vec3(f.col(i)));
+  EXPECT_LE(torque.norm(), 1e-14);
+  Vector on_dofs(s.size());
+  s.model().parts().dofs->restrict_to(f, on_dofs);
+  EXPECT_LE((on_dofs + path.constraints.jacobian(0, path.q) * Vector::Constant(path.constraints.size(), 2)).norm(),
+            1e-14);
 }
 
 TEST(Joints, StartWithVelocitiesThatFit) {
@@ -159,6 +166,7 @@ TEST(Joints, AreRefusedWithTheReason) {
   EXPECT_THAT(message(kBall), HasSubstr("cannot hold the point"));
   EXPECT_THAT(message("{type: ball, name: a, first: {surface: upper.x1}}"), HasSubstr("needs `at`"));
   EXPECT_THAT(message("{type: hinge, name: a, from: [1, 0, 0], first: {surface: upper.x1}}"), HasSubstr("`to`"));
+  EXPECT_THAT(message("{type: slider, name: a, from: [1, 0, 0], first: {surface: upper.x1}}"), HasSubstr("slides"));
   EXPECT_THAT(message("{type: ball, name: a, at: [1, 0.1, 0.1], first: {surface: upper.x2}}"), HasSubstr("upper.x1"));
   const std::string pin = "at: [1, 0.1, 0.1], first: {surface: upper.x1}}";
   EXPECT_THAT(message("{type: ball, name: a, " + pin + ", {type: ball, name: b, " + pin), HasSubstr("already held"));

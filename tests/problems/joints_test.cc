@@ -111,6 +111,61 @@ integrator: {type: ida_bdf, rtol: 1e-6}
   EXPECT_GE((centre(s, motion.last.q) - centre(s, start.q)).norm(), 1);
 }
 
+// A block on a line that is inclined by 30 degrees slides without friction: x = g sin(30 deg) t^2 / 2. A slider does
+// not let it turn, a slot at its centre neither turns it nor stops it from turning.
+TEST(Slider, GoesDownAnInclinedLineAsInFreeFall) {
+  for (const char* type : {"slot", "cylindrical", "slider"}) {
+    const double c = std::cos(std::acos(-1.0) / 6), end = 0.5;
+    const BuiltTestScene s(fmt::format(R"(
+mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1, origin: [-0.05, -0.05, -0.05]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e8, nu: 0.3}}}}
+gravity: [0, 0, -10]
+joints: [{{type: {}, name: rail, from: [0, 0, 0], to: [{}, 0, -0.025], first: {{box: {{min: [-1, -1, -1], max: [1, 1, 1]}}}}}}]
+time: {{end: {}}}
+integrator: {{type: ida_bdf, rtol: 1e-6}}
+)",
+                                       type, 0.05 * c, end));
+    const Motion motion = motion_of(s);
+    const double way = 10 * 0.5 * end * end / 2;
+    EXPECT_LE((centre(s, motion.last.q) - way * Vec3(c, 0, -0.5)).norm(), 1e-5 * way) << type;
+    EXPECT_LE(motion.gap, 1e-6) << type;
+    const auto force = s.model().evaluate("joint.rail", motion.last);
+    EXPECT_LE((Vec3(force[0], force[1], force[2]) - 10 * c * Vec3(0.5, 0, c)).norm(), 1e-2) << type;  // m g cos(30 deg)
+  }
+}
+
+// A block is thrown along a free bar in which it slides: on a turning line, r'' = w^2 r, and the angular momentum
+// (J + m r^2) w is constant.
+TEST(Slider, KeepsMomentumAndEnergyOnATurningBar) {
+  const BuiltTestScene s(R"(
+mesh:
+  type: bodies
+  bodies:
+    bar: {mesh: {type: box, size: [2, 0.1, 0.1], cells: [8, 1, 1], origin: [-1, -0.05, -0.05]}}
+    block: {mesh: {type: box, size: [0.2, 0.3, 0.3], cells: [1, 1, 1], origin: [0.2, -0.15, -0.15]}}
+materials: {m: {type: isotropic, density: 100, young: 1e8, nu: 0.3}}
+joints:
+  - type: slider
+    name: rail
+    from: [0.2, 0, 0]
+    to: [0.4, 0, 0]
+    first: {box: {min: [0.15, -0.2, -0.2], max: [0.45, 0.2, 0.2]}}
+    second: {box: {min: [-0.3, -0.06, -0.06], max: [0.3, 0.06, 0.06]}}
+initial: {velocity_field: ['-2*y', '2*x', 0]}
+damping: {stiffness: 1e-5}
+time: {end: 1}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)");
+  const Motion motion = motion_of(s);
+  const State& start = s.built.initial;
+  for (const char* kind : {"momentum.linear", "momentum.angular"}) {
+    const auto before = s.model().evaluate(kind, start), after = s.model().evaluate(kind, motion.last);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(after[c], before[c], 1e-4 * std::abs(before[2]) + 1e-4) << kind;
+  }
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * s.model().evaluate("energy.kinetic", start)[0]);
+  EXPECT_GE((centre(s, motion.last.q) - centre(s, start.q)).norm(), 0.1);
+}
+
 TEST(Joints, OtherMethodsAreRefusedByName) {
   for (const char* type :
        {"cvode_bdf", "newmark", "central_differences, step: auto", "arkode_dirk", "energy_momentum"}) {
