@@ -45,7 +45,10 @@ void Mass::add_lumped(const DofMap& dofs) {
   }
   for (const TiedNode& tied : dofs.ties().nodes())
     for (const auto& [leader, weight] : tied.leaders) {
-      positive_ = positive_ && sums[leader] > 0;
+      if (!(sums[leader] > 0))
+        throw ConfigError("mass",
+                          "a lumped mass at a tie is not positive; set `mass: consistent`, or swap `first` and "
+                          "`second` of the tie");
       frequency_excess_ = std::max(frequency_excess_, bounds[leader] / sums[leader]);
     }
 }

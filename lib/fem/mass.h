@@ -20,10 +20,6 @@ namespace orthodyn {
 
 enum class MassKind { lumped, consistent };
 
-// The message if Mass::positive() is false.
-inline constexpr const char* kNotPositive =
-    "a lumped mass of a node at a tie is not positive: set `mass: consistent`, or swap `first` and `second` of the tie";
-
 class Mass {
  public:
   // `density` in kg/m^3, per cell. `pattern` must outlive the mass, `dofs` need not. `subdomain`: this rank's part for
@@ -33,8 +29,6 @@ class Mass {
   ~Mass();
 
   bool lumped() const { return kind_ == MassKind::lumped; }
-  // False if weights of a tie make a lumped mass zero or negative. Motions and modes need positive masses.
-  bool positive() const { return positive_; }
   // Mass of the body, kg, clamped nodes included.
   double total() const { return total_; }
   // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes.
@@ -64,7 +58,6 @@ class Mass {
   const Pattern& pattern_;
   Vector nodal_;
   double total_ = 0, frequency_excess_;
-  bool positive_ = true;
   Vector diagonal_;             // lumped
   Vector row_sums_;             // consistent
   std::vector<double> values_;  // consistent

@@ -156,11 +156,6 @@ void require_free_coordinates(const Scene& scene, const std::vector<bool>& held)
         .fail("all nodes are clamped or moved: nothing is left to compute");
 }
 
-void require_positive_masses(const Scene& scene, const Mass& mass) {
-  if (mass.positive() || scene.analysis == Analysis::statical || scene.analysis == Analysis::buckling) return;
-  scene.ties.front().origin.fail(kNotPositive);
-}
-
 void require_mass(double mass) {
   if (!std::isnormal(mass))
     throw ConfigError(
@@ -250,7 +245,6 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const auto density = subdomain ? cells_here(elastic.density, *subdomain) : elastic.density;
   parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
   require_mass(parts.mass->total());
-  require_positive_masses(scene, *parts.mass);
   const NodalVector rest = positions(parts.mesh);
   parts.rest = std::make_unique<NodalVector>(positions(own));
   add_supports(std::move(supports), elements, density, rest, parts);

@@ -12,7 +12,6 @@ ModalAnalysis::ModalAnalysis(const Setup& setup, int count, bool about_equilibri
   if (!setup.scene.is_static() && !scene_.motions.empty()) rebuilt_ = build(scene_);
   if (model().constraints())
     throw ConfigError("joints", "natural modes are not available with joints; remove them, or replace them by springs");
-  if (!model().parts().mass->positive()) throw ConfigError("mass", kNotPositive);
   about_ = state_about(about_equilibrium);
   modes_ = natural_modes(model(), about_, count);
   // Round-off also turns the softest modes of slender bodies into zero modes. Only motions that the geometry leaves
