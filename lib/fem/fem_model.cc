@@ -237,7 +237,13 @@ double FemModel::frequency_bound() const {
 }
 
 double largest_quotient(const FemModel::Parts& parts, Vector row_sums) {
-  if (!parts.subdomain) return row_sums.cwiseQuotient(parts.mass->nodal()).maxCoeff();
+  if (!parts.subdomain) {
+    if (parts.mass->lumped()) parts.dofs->ties().move_bounds(row_sums);
+    double largest = 0;  // tied nodes have neither
+    for (Eigen::Index i = 0; i < row_sums.size(); ++i)
+      if (row_sums[i] > 0) largest = std::max(largest, row_sums[i] / parts.mass->nodal()[i]);
+    return largest;
+  }
   parts.subdomain->add_to_owners(row_sums);
   const Eigen::Index own = parts.dofs->num_owned_nodes();
   const auto quotients = row_sums.head(own).cwiseQuotient(parts.mass->nodal().head(own));

@@ -19,38 +19,31 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
     for (const int node : mesh.cells[e]) nodal_[node] += masses[a++];
   }
   if (subdomain) subdomain->add_to_owners(nodal_);
+  if (kind == MassKind::lumped) move_to_leaders(dofs.ties());
   total_ = subdomain ? subdomain->ranks().sum(nodal_.sum()) : nodal_.sum();
   if (kind == MassKind::lumped) {
-    add_lumped(dofs);
+    diagonal_.resize(dofs.num_dofs());
+    const NodalVector all = Vec3::Ones() * nodal_.transpose();
+    dofs.restrict_to(all, diagonal_);
   } else {
     add_consistent(mesh, density, pattern);
   }
 }
 
-// The masses m_s of tied nodes as diagonal entries m_i += w_si m_s have at least 1/e of the kinetic energy with m_s,
-// with e the largest of (m_i + sum_s |w_si| sum_j |w_sj| m_s) / (m_i + sum_s w_si m_s), by Cauchy's inequality.
-void Mass::add_lumped(const DofMap& dofs) {
-  diagonal_.resize(dofs.num_dofs());
-  const NodalVector all = Vec3::Ones() * nodal_.transpose();
-  dofs.restrict_forces_to(all, diagonal_);
-  if (dofs.ties().empty()) return;
-  Vector sums = nodal_, bounds = nodal_;
-  for (const TiedNode& tied : dofs.ties().nodes()) {
-    double absolute = 0;
-    for (const auto& [leader, weight] : tied.leaders) absolute += std::abs(weight);
-    for (const auto& [leader, weight] : tied.leaders) {
-      sums[leader] += weight * nodal_[tied.node];
-      bounds[leader] += std::abs(weight) * absolute * nodal_[tied.node];
-    }
+// A tied node's mass m_s is divided among its leaders by p_i = |w_i| / sum |w_j|, which is positive. By Cauchy's
+// inequality (sum w_i v_i)^2 <= (sum |w_j|)^2 sum p_i v_i^2, which bounds the kinetic energy of the tied nodes.
+void Mass::move_to_leaders(const Ties& ties) {
+  if (ties.empty()) return;
+  Vector bounds = nodal_;
+  ties.move_bounds(bounds);
+  for (const TiedNode& tied : ties.nodes()) {
+    for (const auto& [leader, weight] : tied.leaders)
+      nodal_[leader] += std::abs(weight) / tied.sum_of_magnitudes() * nodal_[tied.node];
+    nodal_[tied.node] = 0;
   }
-  for (const TiedNode& tied : dofs.ties().nodes())
-    for (const auto& [leader, weight] : tied.leaders) {
-      if (!(sums[leader] > 0))
-        throw ConfigError("mass",
-                          "a lumped mass at a tie is not positive; set `mass: consistent`, or swap `first` and "
-                          "`second` of the tie");
-      frequency_excess_ = std::max(frequency_excess_, bounds[leader] / sums[leader]);
-    }
+  for (const TiedNode& tied : ties.nodes())
+    for (const auto& [leader, weight] : tied.leaders)
+      frequency_excess_ = std::max(frequency_excess_, bounds[leader] / nodal_[leader]);
 }
 
 void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern) {
@@ -144,9 +137,7 @@ SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const std::v
   Entries entries;
   if (mass.lumped()) {
     for (int i = 0; i < dofs.num_nodes(); ++i)
-      dofs.ties().for_each_leader(i, [&](int a, double weight) {
-        if (is_held(dofs, a)) entries.emplace_back(a, a, weight * mass.nodal()[i]);
-      });
+      if (is_held(dofs, i)) entries.emplace_back(i, i, mass.nodal()[i]);
   } else {
     for (std::size_t e = 0; e < mesh.cells.size(); ++e)
       add_element(mesh.cells[e], mesh.type(e).consistent_mass(mesh.positions(e), density[e]), dofs, entries);

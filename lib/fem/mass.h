@@ -1,5 +1,5 @@
 // Mass matrix of the free coordinates: lumped (diagonal) or consistent (on the model's pattern).
-// Lumped masses of tied nodes move to their leaders (ties/ties.h), with the weights of the tie.
+// Lumped masses of tied nodes move to their leaders (ties/ties.h).
 //
 //     M_ab = integral of rho N_a N_b dV (consistent),  m_a = sum over elements of rho V s_a (lumped)
 //
@@ -31,7 +31,7 @@ class Mass {
   bool lumped() const { return kind_ == MassKind::lumped; }
   // Mass of the body, kg, clamped nodes included.
   double total() const { return total_; }
-  // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes.
+  // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes, and for tied nodes if lumped.
   const Vector& nodal() const { return nodal_; }
   // Row sums of the mass matrix over all nodes, kg: the nodal forces per unit of uniform acceleration. May be negative
   // for a consistent mass.
@@ -51,7 +51,7 @@ class Mass {
   void add_to(double factor, double* values) const;
 
  private:
-  void add_lumped(const DofMap& dofs);
+  void move_to_leaders(const Ties& ties);
   void add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern);
 
   MassKind kind_;

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "lib/core/errors.h"
 
 namespace orthodyn {
+
+double TiedNode::sum_of_magnitudes() const {
+  double sum = 0;
+  for (const auto& [leader, weight] : leaders) sum += std::abs(weight);
+  return sum;
+}
 
 Ties::Ties(int num_nodes, std::vector<TiedNode> nodes)
     : nodes_(std::move(nodes)), index_(static_cast<std::size_t>(num_nodes), -1) {
@@ -47,6 +54,15 @@ void Ties::gather(NodalVector& forces) const {
     const Vec3 force = forces.col(tied.node);
     forces.col(tied.node).setZero();
     for (const auto& [leader, weight] : tied.leaders) forces.col(leader) += weight * force;
+  }
+}
+
+// u_s^2 <= sum_j |w_j| sum_i |w_i| u_i^2 by Cauchy's inequality.
+void Ties::move_bounds(Vector& b) const {
+  for (const TiedNode& tied : nodes_) {
+    for (const auto& [leader, weight] : tied.leaders)
+      b[leader] += std::abs(weight) * tied.sum_of_magnitudes() * b[tied.node];
+    b[tied.node] = 0;
   }
 }
 

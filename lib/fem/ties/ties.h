@@ -16,6 +16,7 @@ namespace orthodyn {
 struct TiedNode {
   int node;
   std::vector<std::pair<int, double>> leaders;  // nodes and weights; the sum of the weights is 1
+  double sum_of_magnitudes() const;             // of the weights, >= 1
 };
 
 class Ties {
@@ -40,6 +41,9 @@ class Ties {
   void place(NodalVector& u) const;
   // Moves the forces on tied nodes to their leaders.
   void gather(NodalVector& forces) const;
+  // Moves values b of tied nodes to their leaders so that sum b_i u_i^2 does not decrease for any motion of the
+  // leaders.
+  void move_bounds(Vector& b) const;
 
   // The pairs of nodes that have a common matrix entry because of ties: the leaders of all nodes of a cell, and of both
   // nodes of each pair in `further`.
