@@ -31,6 +31,12 @@ struct Support {
   std::vector<std::array<bool, 3>> held;  // which components, per node
 };
 
+// The tied nodes of a surface.
+struct NamedTie {
+  std::string name;
+  std::vector<int> nodes;
+};
+
 class FemModel : public Model {
  public:
   // With several ranks, `mesh` is the whole mesh; everything else belongs to this rank's subdomain and uses its node
@@ -55,6 +61,8 @@ class FemModel : public Model {
     std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks; null with one rank
     std::vector<Support> supports;                      // supports whose reactions are outputs
     std::vector<Joint> joints = {};
+    std::vector<NamedTie> ties = {};
+    std::unique_ptr<TiedMass> tied_mass = {};   // null without ties or with a lumped mass
     std::unique_ptr<SupportMass> support_mass;  // null without motions and supports
     std::unique_ptr<StressRecovery> recovery;   // set by FemModel
     Traits traits;

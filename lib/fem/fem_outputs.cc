@@ -318,6 +318,16 @@ std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports) {
   return out;
 }
 
+std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties) {
+  std::vector<FemOutput> out;
+  for (const NamedTie& tie : ties)
+    out.push_back(
+        {{"tie." + tie.name, Location::global, 3, "N", "Force of the second surface of the tie on the first one.",
+          axis_names()},
+         [&tie](const View& view) { return flat(Vec3(view.tie_forces()(Eigen::all, tie.nodes).rowwise().sum())); }});
+  return out;
+}
+
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
   std::vector<FemOutput> out;
   for (const Joint& joint : joints)
@@ -343,6 +353,7 @@ std::vector<OutputInfo> FemModel::outputs() const {
   for (const auto& output : all_outputs()) infos.push_back(output.info);
   for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
   for (const auto& output : joint_outputs(parts_.joints)) infos.push_back(output.info);
+  for (const auto& output : tie_outputs(parts_.ties)) infos.push_back(output.info);
   for (const FieldRegion& region : field_regions(parts_.elastic))
     for (OutputInfo info : region_fields()) {
       info.name = region.name + "." + info.name;

@@ -36,6 +36,8 @@ FemOutput find_output(const FemModel::Parts& parts, const std::string& name) {
     if (output.info.name == name) return output;
   for (const auto& output : joint_outputs(parts.joints))
     if (output.info.name == name) return output;
+  for (const auto& output : tie_outputs(parts.ties))
+    if (output.info.name == name) return output;
   for (const FieldRegion& region : field_regions(parts.elastic)) {
     const std::string prefix = region.name + ".";
     if (!name.starts_with(prefix)) continue;
@@ -119,10 +121,23 @@ const std::vector<RegionMeshError>& FemStateView::mesh_errors() const {
   return once(mesh_errors_, [&] { return parts_.recovery->mesh_errors(state()); });
 }
 
+NodalVector FemStateView::forces() const {
+  NodalVector f = term_forces(parts_, nodal_);
+  if (lambda_.size() > 0) f += joint_forces(parts_, nodal_.u, lambda_);
+  return f;
+}
+
+const NodalVector& FemStateView::tie_forces() const {
+  return once(tie_forces_, [&]() -> NodalVector {
+    const NodalVector f = forces();
+    if (!parts_.tied_mass) return -f;
+    return parts_.tied_mass->times(accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate) - f;
+  });
+}
+
 const NodalVector& FemStateView::support_forces() const {
   return once(support_forces_, [&] {
-    NodalVector f = term_forces(parts_, nodal_);
-    if (lambda_.size() > 0) f += joint_forces(parts_, nodal_.u, lambda_);
+    NodalVector f = forces();
     parts_.dofs->ties().gather(f);
     const NodalVector a = accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate;
     return held_part(*parts_.dofs, parts_.support_mass->times(a) - f);

@@ -47,8 +47,12 @@ class FemStateView : public StateView {
   // Reactions (N) at clamped and moved coordinates, zero elsewhere: M a + alpha M v - f with the forces f of all terms,
   // the accelerations a of all nodes and the mass-proportional damping alpha (1/s).
   const NodalVector& support_forces() const;
+  // The forces (N) of the leaders on tied nodes: M a + alpha M v - f; without inertia if the mass is lumped, because it
+  // is then at the leaders. Other nodes have values without meaning.
+  const NodalVector& tie_forces() const;
 
  private:
+  NodalVector forces() const;  // of terms and joints, N
   Vector free_velocity() const;
   const Vector& free_momentum() const;
 
@@ -59,7 +63,7 @@ class FemStateView : public StateView {
   NodalExpansion nodal_;
   mutable std::optional<double> kinetic_energy_;
   mutable std::optional<Vector> free_momentum_;
-  mutable std::optional<NodalVector> momentum_, support_forces_;
+  mutable std::optional<NodalVector> momentum_, support_forces_, tie_forces_;
   mutable std::optional<RecoveredTensors> recovered_;
   mutable std::optional<std::vector<RegionMeshError>> mesh_errors_;
   mutable std::map<std::string, std::vector<double>> whole_fields_;  // of all ranks, for evaluate_at()
@@ -81,6 +85,9 @@ const std::vector<FemOutput>& all_outputs();
 
 // Reaction force and torque of each support; `supports` must outlive the result.
 std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports);
+
+// The force of each tie; `ties` must outlive the result.
+std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties);
 
 // The force of each joint, and the largest distance of points that should coincide; `joints` must outlive the result.
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints);

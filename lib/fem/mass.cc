@@ -150,6 +150,20 @@ std::size_t SupportMass::bytes() const {
          static_cast<std::size_t>(matrix_.cols() + 1) * sizeof(int);
 }
 
+TiedMass::TiedMass(const ElementMesh& mesh, const std::vector<double>& density, const Ties& ties)
+    : transpose_(std::ssize(mesh.nodes), std::ssize(mesh.nodes)) {
+  Entries entries;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const auto nodes = mesh.cells[e];
+    if (std::none_of(nodes.begin(), nodes.end(), [&](int node) { return ties.is_tied(node); })) continue;
+    const Eigen::MatrixXd M = mesh.type(e).consistent_mass(mesh.positions(e), density[e]);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size() && ties.is_tied(nodes[i]); ++j)
+        entries.emplace_back(nodes[j], nodes[i], M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  }
+  transpose_.setFromTriplets(entries.begin(), entries.end());
+}
+
 NodalVector held_part(const DofMap& dofs, const NodalVector& x) {
   NodalVector out = x;
   for (int i = 0; i < dofs.num_nodes(); ++i)

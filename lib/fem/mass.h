@@ -84,6 +84,19 @@ class SupportMass {
   SparseMatrix matrix_;  // symmetric, both triangles
 };
 
+// The rows of the consistent mass matrix of all nodes at tied nodes, before their inertia moves to the leaders.
+class TiedMass {
+ public:
+  // `density` in kg/m^3, per cell.
+  TiedMass(const ElementMesh& mesh, const std::vector<double>& density, const Ties& ties);
+
+  // Returns M x (kg times the unit of x) at tied nodes, and zero elsewhere.
+  NodalVector times(const NodalVector& x) const { return x * transpose_; }
+
+ private:
+  SparseMatrix transpose_;
+};
+
 // Returns x at coordinates that are not unknowns, and zero elsewhere.
 NodalVector held_part(const DofMap& dofs, const NodalVector& x);
 

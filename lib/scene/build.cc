@@ -213,7 +213,8 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   require_size(parts.mesh);
-  Ties ties = make_ties(scene.ties, parts.mesh, loaded.warnings);
+  auto [ties, named_ties] = make_ties(scene.ties, parts.mesh, loaded.warnings);
+  parts.ties = std::move(named_ties);
   if (ranks && !ties.empty()) scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
   const auto regions = assign_regions(scene, parts.mesh);
   warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
@@ -245,6 +246,8 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const auto density = subdomain ? cells_here(elastic.density, *subdomain) : elastic.density;
   parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
   require_mass(parts.mass->total());
+  if (!parts.ties.empty() && !parts.mass->lumped())
+    parts.tied_mass = std::make_unique<TiedMass>(elements, density, parts.dofs->ties());
   const NodalVector rest = positions(parts.mesh);
   parts.rest = std::make_unique<NodalVector>(positions(own));
   add_supports(std::move(supports), elements, density, rest, parts);

@@ -20,6 +20,7 @@ const Spec<TieInput>& TieInput::spec() {
   using T = TieInput;
   static const auto s =
       Spec<T>()
+          .key("name", &T::name, "Name of its force, the output tie.NAME; default tie_1, tie_2 and so on.")
           .key("first", &T::first, "Surface whose nodes follow the second one: that of the smaller or finer mesh.",
                {.required = true})
           .key("second", &T::second, "Surface that the first one lies on; it may be larger.", {.required = true})
@@ -82,13 +83,17 @@ Mortar mortar_of(const TieInput& tie, const Mesh& mesh, Warnings& warnings) {
 
 }  // namespace
 
-Ties make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings) {
+TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings) {
   constexpr double kTold = 1e-3;  // of the root of the mean area of the faces
   if (inputs.empty()) return {};
+  TiedSurfaces out;
   std::vector<TiedNode> nodes;
   std::map<int, const TieInput*> tied_by;
   double size = 0;
   for (const TieInput& input : inputs) {
+    NamedTie named{input.name.empty() ? fmt::format("tie_{}", out.named.size() + 1) : input.name, {}};
+    for (const NamedTie& other : out.named)
+      if (other.name == named.name) input.origin.fail(fmt::format("name: '{}' is used twice among ties", named.name));
     for (TiedNode& tied : mortar_of(input, mesh, warnings).nodes) {
       const auto [other, is_new] = tied_by.emplace(tied.node, &input);
       if (!is_new)
@@ -96,19 +101,21 @@ Ties make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnin
             "the node of '{}' at {} m is tied already, as one of '{}'; make one tie to a surface that contains both "
             "second surfaces, or swap `first` and `second` of this tie",
             input.first, place_of(mesh, tied.node), other->second->first));
+      named.nodes.push_back(tied.node);
       nodes.push_back(std::move(tied));
     }
+    out.named.push_back(std::move(named));
     const auto& faces = find_surface(mesh, input.first, input.origin);
     size = std::max(size, std::sqrt(surface_area(mesh, faces) / static_cast<double>(faces.size())));
   }
-  Ties ties(static_cast<int>(mesh.nodes.size()), std::move(nodes));
-  const double moved = move_to_leaders(mesh, ties);
+  out.ties = Ties(static_cast<int>(mesh.nodes.size()), std::move(nodes));
+  const double moved = move_to_leaders(mesh, out.ties);
   if (moved > kTold * size)
     warnings.push_back(fmt::format(
         "{}: the tied nodes were moved onto the second surfaces, by up to {:.3g} m; make the surfaces meet, "
         "or refine them where they are curved",
         inputs.front().origin.where, moved));
-  return ties;
+  return out;
 }
 
 void release_tied_nodes(const std::vector<TieInput>& inputs, const Ties& ties, const Mesh& mesh, Supports& supports) {

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/fem/fem_model.h"
 #include "lib/fem/ties/ties.h"
 #include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
 struct TieInput {
+  std::string name;             // empty: tie_1 and so on
   std::string first, second;    // surfaces
   std::optional<double> reach;  // m
   SourceLocation origin;
@@ -20,9 +22,14 @@ struct TieInput {
 
 struct Supports;
 
+struct TiedSurfaces {
+  Ties ties;
+  std::vector<NamedTie> named;
+};
+
 // The ties of the mesh, whose tied nodes are moved to the second surfaces. Throws ConfigError if surfaces do not lie on
 // each other. Adds a warning if a part of a first surface has no counterpart, or if a node is moved visibly.
-Ties make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings);
+TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings);
 
 // Tied nodes are held by their leaders: takes them out of the supports, and marks them as held. Throws ConfigError if
 // no leader of a clamped or moved node is held too.
