@@ -1,8 +1,11 @@
 // Contracting bodies as a user runs them: balance of energy, conservation, kinematics, sensitivities.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lib/config/config.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "tests/simulation/result_reader.h"
 
 namespace orthodyn::fibres_run_test {
@@ -91,6 +94,15 @@ TEST_F(FibreRuns, HaveSensitivitiesOfTheirConstants) {
   ASSERT_FALSE(table.empty());
   EXPECT_GT(std::abs(quotient), 1e-9);
   EXPECT_NEAR(table.back()[1], quotient, 2e-3 * std::abs(quotient));
+}
+
+// The weak passive tension does not make up for the falling active one, the strong one does.
+TEST(FibresThatSplitTheBody, AreWarnedOf) {
+  const auto warnings = [](const std::string& k1) {
+    return scene_warnings(Config::from_text(muscle("", kRise, k1)), true);
+  };
+  EXPECT_THAT(warnings("1"), testing::Contains(testing::HasSubstr("falls faster")));
+  EXPECT_THAT(warnings("30e3"), testing::Not(testing::Contains(testing::HasSubstr("falls faster"))));
 }
 
 }  // namespace

@@ -103,11 +103,12 @@ double distance(const Vec3& point, const Box& box) {
 Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
   const input_checks::CheckContext context(config, scene, built, is_timed);
   Warnings out;
-  for (const auto add : {input_checks::check_material, input_checks::check_place, input_checks::check_load,
-                         input_checks::check_time, input_checks::check_motion, input_checks::check_freedom,
-                         input_checks::check_hourglass, input_checks::check_change, input_checks::check_layers,
-                         input_checks::check_locking, input_checks::check_relaxation, input_checks::check_turning,
-                         input_checks::check_damping, input_checks::check_event, input_checks::check_setting})
+  for (const auto add :
+       {input_checks::check_material, input_checks::check_place, input_checks::check_load, input_checks::check_time,
+        input_checks::check_motion, input_checks::check_freedom, input_checks::check_hourglass,
+        input_checks::check_change, input_checks::check_layers, input_checks::check_locking, input_checks::check_fibres,
+        input_checks::check_relaxation, input_checks::check_turning, input_checks::check_damping,
+        input_checks::check_event, input_checks::check_setting})
     add(context, out);
   return out;
 }
