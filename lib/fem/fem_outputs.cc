@@ -337,14 +337,19 @@ std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
            return flat(joint_force(view.parts(), joint, view.nodal().u, view.multipliers()));
          }});
   if (joints.empty()) return out;
+  const auto largest = [](const View& view, bool of_rates) {
+    const auto constraints = make_joint_constraints(view.parts());
+    Vector q(view.parts().dofs->num_dofs()), v(q.size()), g(constraints->size());
+    view.parts().dofs->restrict_to(view.nodal().u, q);
+    view.parts().dofs->restrict_to(view.nodal().u_rate, v);
+    if (of_rates) constraints->rates(view.nodal().time, q, v, g);
+    else constraints->values(view.nodal().time, q, g);
+    return std::vector<double>{g.cwiseAbs().maxCoeff()};
+  };
   out.push_back({{"joints.gap", Location::global, 1, "m", "Largest distance of joined points, and change of rods."},
-                 [](const View& view) {
-                   const auto constraints = make_joint_constraints(view.parts());
-                   Vector q(view.parts().dofs->num_dofs()), g(constraints->size());
-                   view.parts().dofs->restrict_to(view.nodal().u, q);
-                   constraints->values(view.nodal().time, q, g);
-                   return std::vector<double>{g.cwiseAbs().maxCoeff()};
-                 }});
+                 [largest](const View& view) { return largest(view, false); }});
+  out.push_back({{"joints.rate", Location::global, 1, "m/s", "Largest rate of these distances."},
+                 [largest](const View& view) { return largest(view, true); }});
   return out;
 }
 

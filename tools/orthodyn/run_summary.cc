@@ -120,6 +120,8 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   if (motion.momentum && motion.momentum->angular_scale > 0)
     fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",
                motion.momentum->angular_drift / motion.momentum->angular_scale);
+  if (const auto& j = motion.joints)
+    fmt::print("  {:<15} at most {:.2g} m apart, at a rate of at most {:.2g} m/s\n", "joints", j->gap, j->rate);
   if (const auto& e = motion.segment_error)
     fmt::print(
         "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} segment{} of {} steps against {} "

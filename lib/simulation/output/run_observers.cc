@@ -34,6 +34,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (!scene.output.extremes.empty()) extremes.emplace(scene, model);
   if (setup.sensitivities) observe_sensitivities(setup, folder);
   if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
+  if (model.constraints()) joints.emplace();
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 
@@ -60,6 +61,7 @@ NamedObservers RunObservers::checkpointed() {
   add("event_sensitivities", event_sensitivities_);
   add("extremes", extremes);
   add("strains", strains);
+  add("joints", joints);
   add("linearity", linearity_);
   return out;
 }

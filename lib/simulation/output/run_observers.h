@@ -9,6 +9,7 @@
 #include "lib/simulation/output/curves.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/joint_watch.h"
 #include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/setup.h"
@@ -42,6 +43,7 @@ class RunObservers {
   std::optional<MomentumWriter> momentum;
   std::optional<ExtremeRecorder> extremes;
   std::optional<StrainWatch> strains;
+  std::optional<JointWatch> joints;
 
  private:
   void observe_sensitivities(const Setup& setup, const std::filesystem::path& folder);

@@ -179,6 +179,10 @@ class DynamicAnalysis {
     if (const auto& e = observers.energy)
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(), e->states()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
+    if (const auto& j = observers.joints) {
+      out.joints = j->largest();
+      out.joints_extent = bounding_box(setup_.built.model->parts().mesh).size().maxCoeff();
+    }
     out.events_not_found = observers.events_not_found();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     if (out.mesh_error && outcome.status == Outcome::Status::completed)

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLargeDrift = 0.01;  // of the largest energy
 constexpr double kLargeError = 0.05;  // of the largest displacement
+constexpr double kLargeGap = 10;      // of joints, in rtol times the extent of the mesh
 // Relative to the largest load. Smaller residuals are round-off of the internal forces of slender bodies, whose
 // displacements are accurate.
 constexpr double kLargeResidual = 1e-6;
@@ -167,6 +168,12 @@ std::vector<std::string> result_warnings(const RunResult& result) {
     all.insert(all.end(), motion->warnings.begin(), motion->warnings.end());
     if (motion->energy && !(motion->energy->relative_drift <= kLargeDrift))
       all.push_back(drift_sentence(*motion->energy));
+    if (motion->joints && motion->rtol && !(motion->joints->gap <= kLargeGap * *motion->rtol * motion->joints_extent))
+      add_warning(
+          all,
+          "joined points were up to {:.2g} m apart, more than {:.0f} times rtol of the size of the bodies. Use a "
+          "smaller integrator.rtol",
+          motion->joints->gap, kLargeGap);
     if (motion->segment_error && !(motion->segment_error->error <= kLargeError))
       all.push_back(accumulation_sentence(*motion));
   }

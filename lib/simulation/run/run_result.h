@@ -15,6 +15,7 @@
 #include "lib/simulation/error_estimate/segment_error_estimate.h"
 #include "lib/simulation/output/balance.h"
 #include "lib/simulation/output/extremes.h"
+#include "lib/simulation/output/joint_watch.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/outcome.h"
 #include "lib/statics/critical_point.h"
@@ -68,6 +69,8 @@ struct MotionResult {
   SmallestDetF det_f = {};
   std::optional<EnergySummary> energy = {};                // if the scene writes energy.csv
   std::optional<MomentumSummary> momentum = {};            // if the scene writes momentum.csv
+  std::optional<JointErrors> joints = {};                  // if the scene has joints
+  double joints_extent = 0;                                // of the mesh, m
   std::optional<FailurePlace> failure = {};                // of a failed run
   std::optional<SegmentErrorEstimate> segment_error = {};  // of a long run
   std::optional<ErrorEstimate> error = {};                 // if requested
