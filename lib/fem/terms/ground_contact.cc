@@ -1,15 +1,15 @@
 // Frictionless contact with a rigid plane by a smooth penalty. A node at position x has the depth d = (point - x) . n
-// below the plane with normal n. With its surface area A and the stiffness k (Pa/m), its energy is k A psi(d), with
-//   psi'(d) = 0 for d <= 0,  d^2/(2 w) for 0 < d < w,  d - w/2 for d >= w.
-// The force is k A psi'(d) n, the stiffness k A psi''(d) n n^T. The contact stiffness builds up over the depth w. The
-// mean force between two states takes the mean of psi' over the depths between them. Without damping, the plane returns
-// all energy.
+// below the plane with normal n. With its surface area A and the stiffness k (Pa/m), its energy is k A psi(d)
+// (lib/fem/contact/penalty.h). The force is k A psi'(d) n, the stiffness k A psi''(d) n n^T. The contact stiffness
+// builds up over the depth w. The mean force between two states takes the mean of psi' over the depths between them.
+// Without damping, the plane returns all energy.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lib/fem/block_pattern.h"
+#include "lib/fem/contact/penalty.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 #include "lib/mesh/selection.h"
@@ -23,16 +23,12 @@ struct GroundPlane {
   double onset = 0;                            // w, m
 };
 
-// The functions psi(d), psi'(d) and psi''(d).
-double penalty(double d, double w) { return d <= 0 ? 0 : d < w ? d * d * d / (6 * w) : d * (d - w) / 2 + w * w / 6; }
-double slope(double d, double w) { return d <= 0 ? 0 : d < w ? d * d / (2 * w) : d - w / 2; }
-double curvature(double d, double w) { return d <= 0 ? 0 : d < w ? d / w : 1; }
-
 // Mean of psi' over [a, b]. Simpson's rule is exact if psi' is a single polynomial in [a, b]. It also replaces the
 // difference quotient for short intervals, where the quotient has large round-off.
 double mean_slope(double a, double b, double w) {
   const bool one_piece = std::max(a, b) <= 0 || std::min(a, b) >= w || (std::min(a, b) >= 0 && std::max(a, b) <= w);
-  if (one_piece || std::abs(b - a) < 1e-6 * w) return (slope(a, w) + 4 * slope((a + b) / 2, w) + slope(b, w)) / 6;
+  if (one_piece || std::abs(b - a) < 1e-6 * w)
+    return (penalty_slope(a, w) + 4 * penalty_slope((a + b) / 2, w) + penalty_slope(b, w)) / 6;
   return (penalty(b, w) - penalty(a, w)) / (b - a);
 }
 
@@ -56,7 +52,7 @@ class GroundContact : public Term {
   void add_force(const NodalState& s, NodalVector& f) const override {
     for (const auto& [node, area] : areas_)
       if (const double d = depth(node, s.x); d > 0)
-        f.col(node) += plane_.stiffness * area * slope(d, plane_.onset) * plane_.normal;
+        f.col(node) += plane_.stiffness * area * penalty_slope(d, plane_.onset) * plane_.normal;
   }
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
@@ -70,7 +66,8 @@ class GroundContact : public Term {
     const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
     for (const auto& [node, area] : areas_)
       if (const double d = depth(node, s.x); d > 0)
-        pattern_.add(node, node, pattern_.offset(node, node), area * curvature(d, plane_.onset) * across, stiffness);
+        pattern_.add(node, node, pattern_.offset(node, node), area * penalty_curvature(d, plane_.onset) * across,
+                     stiffness);
   }
 
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }

@@ -1,0 +1,148 @@
+#include "lib/fem/contact/contact_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lib/fem/surface.h"
+#include "lib/mesh/quadratic.h"
+
+namespace orthodyn {
+
+namespace {
+
+// The triangles of a face, as indices of its nodes.
+const std::vector<std::array<int, 3>>& triangles_of(CellShape shape) {
+  static const std::vector<std::array<int, 3>> tri3{{0, 1, 2}};
+  static const std::vector<std::array<int, 3>> tri6{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  static const std::vector<std::array<int, 3>> quad4{{0, 1, 2}, {0, 2, 3}};
+  static const std::vector<std::array<int, 3>> quad8{{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 7}, {5, 6, 7}};
+  static const std::vector<std::array<int, 3>> quad9{{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8},
+                                                     {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}};
+  switch (shape) {
+    case CellShape::tri6: return tri6;
+    case CellShape::quad4: return quad4;
+    case CellShape::quad8: return quad8;
+    case CellShape::quad9: return quad9;
+    default: return tri3;
+  }
+}
+
+Vec3 area_vector(const Triangle& t) { return Vec3(t.col(1) - t.col(0)).cross(Vec3(t.col(2) - t.col(0))) / 2; }
+
+// The angle at a corner, rad.
+double angle_at(const Triangle& t, int k) {
+  const Vec3 a = t.col((k + 1) % 3) - t.col(k), b = t.col((k + 2) % 3) - t.col(k);
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces)
+    : areas_(node_areas(mesh, faces)) {
+  const Cells cells = face_cells(mesh, faces);
+  std::map<std::pair<int, int>, int> uses;
+  double sum = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    for (const auto& corners : triangles_of(cells.shape(k))) {
+      Corners nodes;
+      for (std::size_t c = 0; c < 3; ++c) nodes[c] = cells[k][static_cast<std::size_t>(corners[c])];
+      triangles_.push_back(nodes);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int a = nodes[c], b = nodes[(c + 1) % 3];
+        ++uses[{std::min(a, b), std::max(a, b)}];
+        sum += (mesh.node(a) - mesh.node(b)).norm();
+      }
+    }
+  mean_edge_ = sum / (3 * static_cast<double>(triangles_.size()));
+  for (const auto& [edge, count] : uses)
+    if (count == 1) {
+      boundary_edges_.insert(edge);
+      boundary_nodes_.insert(edge.first);
+      boundary_nodes_.insert(edge.second);
+    }
+}
+
+bool ContactSurface::is_on_boundary(const Corners& triangle, const Vec3& L) const {
+  std::vector<int> nodes;
+  for (int k = 0; k < 3; ++k)
+    if (L[k] > 0) nodes.push_back(triangle[static_cast<std::size_t>(k)]);
+  if (nodes.size() == 1) return boundary_nodes_.contains(nodes[0]);
+  return nodes.size() == 2 && boundary_edges_.contains({std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])});
+}
+
+std::size_t ContactSurface::bytes() const {
+  return areas_.capacity() * sizeof(areas_[0]) + triangles_.capacity() * sizeof(Corners);
+}
+
+PlacedSurface::PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach)
+    : surface_(surface), x_(x), reach_(reach) {
+  low_ = high_ = x.col(surface.triangles()[0][0]);
+  for (const auto& [node, area] : surface.areas()) {
+    low_ = low_.cwiseMin(x.col(node));
+    high_ = high_.cwiseMax(x.col(node));
+  }
+  (high_ - low_).maxCoeff(&axis_);
+  order_.reserve(surface.triangles().size());
+  for (int k = 0; k < static_cast<int>(surface.triangles().size()); ++k) {
+    const auto along = corners(k).row(axis_);
+    order_.push_back({along.minCoeff(), k});
+    widest_ = std::max(widest_, along.maxCoeff() - along.minCoeff());
+  }
+  std::sort(order_.begin(), order_.end());
+}
+
+Triangle PlacedSurface::corners(int triangle) const {
+  const auto& [a, b, c] = surface_.triangles()[static_cast<std::size_t>(triangle)];
+  Triangle out;
+  out << x_.col(a), x_.col(b), x_.col(c);
+  return out;
+}
+
+std::optional<Touch> PlacedSurface::touch_of(int node) const {
+  constexpr double kSame = 1e-9;  // distances of triangles that share the nearest point, relative to the reach
+  const Vec3 x = x_.col(node);
+  if (!((x - low_).minCoeff() >= -reach_ && (high_ - x).minCoeff() >= -reach_)) return std::nullopt;
+  struct Found {
+    double r;
+    int triangle;
+    Vec3 L;
+  };
+  std::vector<Found> found;
+  double least = reach_;
+  auto at = std::lower_bound(order_.begin(), order_.end(), Placed{x[axis_] - reach_ - widest_, 0});
+  for (; at != order_.end() && at->low <= x[axis_] + reach_; ++at) {
+    const Triangle t = corners(at->triangle);
+    if (((t.rowwise().minCoeff() - x).array() > least).any() || ((x - t.rowwise().maxCoeff()).array() > least).any())
+      continue;
+    const Vec3 L = nearest_point(x, t);
+    const double r = (x - t * L).norm();
+    if (r > least + kSame * reach_) continue;
+    least = std::min(least, r);
+    found.push_back({r, at->triangle, L});
+  }
+  // Below the surface means against its normal; on an edge or at a corner, against the mean normal of the triangles
+  // there, weighted by their angles (Baerentzen & Aanaes, IEEE Trans. Vis. Comput. Graph. 11, 2005).
+  Vec3 normal = Vec3::Zero();
+  const Found* nearest = nullptr;
+  for (const Found& f : found) {
+    if (f.r > least + kSame * reach_) continue;
+    const Triangle t = corners(f.triangle);
+    int corner = -1;
+    for (int k = 0; k < 3; ++k)
+      if (f.L[k] == 1) corner = k;
+    normal += (corner < 0 ? 1.0 : angle_at(t, corner)) * area_vector(t).normalized();
+    if (!nearest || f.triangle < nearest->triangle) nearest = &f;
+  }
+  if (!nearest || !(nearest->r > 0)) return std::nullopt;
+  const auto& nodes = surface_.triangles()[static_cast<std::size_t>(nearest->triangle)];
+  if (surface_.is_on_boundary(nodes, nearest->L)) return std::nullopt;
+  const Triangle t = corners(nearest->triangle);
+  const Vec3 y = x - t * nearest->L;
+  if (!(y.dot(normal) < 0)) return std::nullopt;
+  const bool is_inside = nearest->L.minCoeff() > 0;  // then the normal has more digits than y
+  return Touch{
+      node, nodes, {is_inside ? Vec3(-area_vector(t).normalized()) : Vec3(y / nearest->r), nearest->r, nearest->L, t}};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,74 @@
+// A surface that touches another one: its nodes with their areas, and triangles between its nodes. Triangles of a
+// quadratic face also have the nodes in the middle of edges and of quadrilaterals as corners.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "lib/fem/contact/nearest_point.h"
+#include "lib/fem/nodal_vector.h"
+#include "lib/mesh/mesh.h"
+
+namespace orthodyn {
+
+class ContactSurface {
+ public:
+  using Corners = std::array<int, 3>;
+
+  ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces);
+
+  const std::vector<std::pair<int, double>>& areas() const { return areas_; }  // node, m^2
+  const std::vector<Corners>& triangles() const { return triangles_; }
+  double mean_edge() const { return mean_edge_; }  // of the triangles at rest, m
+
+  // Whether the point with these barycentric coordinates lies on the boundary of the surface.
+  bool is_on_boundary(const Corners& triangle, const Vec3& L) const;
+
+  std::size_t bytes() const;
+
+ private:
+  std::vector<std::pair<int, double>> areas_;
+  std::vector<Corners> triangles_;
+  std::set<std::pair<int, int>> boundary_edges_;  // node pairs, ascending
+  std::set<int> boundary_nodes_;
+  double mean_edge_ = 0;
+};
+
+// A node below a surface: its nearest point has a depth. `distance.n` points into the body, from the surface to the
+// node.
+struct Touch {
+  int node;
+  ContactSurface::Corners triangle;
+  Distance distance;
+};
+
+// The triangles of a surface at the positions x, for searches.
+class PlacedSurface {
+ public:
+  // Both arguments must outlive this object. Finds touches up to the depth `reach` (m).
+  PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach);
+
+  // The nearest point of the surface to a node that lies below the surface; empty for other nodes, and for nodes beside
+  // the boundary of an open surface.
+  std::optional<Touch> touch_of(int node) const;
+
+ private:
+  struct Placed {
+    double low;  // along the axis of the search
+    int triangle;
+    auto operator<=>(const Placed&) const = default;
+  };
+  Triangle corners(int triangle) const;
+
+  const ContactSurface& surface_;
+  const NodalVector& x_;
+  double reach_, widest_ = 0;
+  int axis_ = 0;
+  Vec3 low_, high_;
+  std::vector<Placed> order_;  // ascending
+};
+
+}  // namespace orthodyn

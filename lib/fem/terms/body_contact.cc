@@ -1,0 +1,194 @@
+// Frictionless contact of two surfaces by a smooth penalty. A node of one surface at the depth d below the other one
+// has the energy k A psi(d) / 2, with the node's area A, the stiffness k (Pa/m) and the function psi of penalty.h. Both
+// surfaces are treated alike, so that at the depth d the pressure is k psi'(d). The depth is the distance of the
+// nearest point of the other surface in its present shape. Forces are -grad of the energy: they have no resultant and
+// no torque.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "lib/fem/contact/contact_surface.h"
+#include "lib/fem/contact/penalty.h"
+#include "lib/fem/term_choice.h"
+#include "lib/mesh/selection.h"
+
+namespace orthodyn {
+namespace {
+
+struct ContactLaw {
+  double stiffness = 0;  // Pa/m
+  double onset = 0;      // m
+  double reach = 0;      // m; deeper nodes are not in contact
+};
+
+class BodyContact : public Term {
+ public:
+  // The pattern must outlive the term.
+  BodyContact(std::string name, const ContactLaw& law, ContactSurface first, ContactSurface second,
+              const BlockPattern& pattern)
+      : name_(std::move(name)), law_(law), first_(std::move(first)), second_(std::move(second)), pattern_(pattern) {}
+
+  std::string name() const override { return name_; }
+  std::string description() const override {
+    return fmt::format("{}: {} and {} nodes, {:.6g} Pa/m", name_, first_.areas().size(), second_.areas().size(),
+                       law_.stiffness);
+  }
+  std::size_t bytes() const override { return first_.bytes() + second_.bytes(); }
+
+  void add_force(const NodalState& s, NodalVector& f) const override {
+    for_each_touch(s.x, [&](const Touch& touch, double stiffness) {
+      const Vec12 force = -stiffness * penalty_slope(touch.distance.r, law_.onset) * touch.distance.gradient();
+      const auto nodes = nodes_of(touch);
+      for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += force.segment<3>(3 * k);
+    });
+  }
+
+  // Gauss-Newton: without the second derivative of the distance.
+  void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const override {
+    for_each_touch(s.x, [&](const Touch& touch, double k) {
+      const double d = touch.distance.r;
+      const Vec12 slope = touch.distance.gradient();
+      Mat12 K = k * penalty_curvature(d, law_.onset) * slope * slope.transpose();
+      if (kind == TangentKind::exact) K += k * penalty_slope(d, law_.onset) / d * touch.distance.second_derivative();
+      const auto nodes = nodes_of(touch);
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+          const int a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
+          if (pattern_.symmetric() && a < b) continue;
+          pattern_.add(a, b, pattern_.offset(a, b), K.block<3, 3>(3 * i, 3 * j), stiffness);
+        }
+    });
+  }
+
+  void add_mean_force(const NodalState&, const NodalState&, NodalVector&) const override {
+    throw ConfigError("integrator", "energy_momentum is not available with contact of bodies; use another integrator");
+  }
+
+  EnergyKind energy_kind() const override { return EnergyKind::elastic; }
+
+  double energy(const NodalState& s) const override {
+    double sum = 0;
+    for_each_touch(s.x, [&](const Touch& touch, double k) { sum += k * penalty(touch.distance.r, law_.onset); });
+    return sum;
+  }
+
+  // A touch has the stiffness k A / 2 along a vector whose entries have the sum of magnitudes 2; corners of triangles
+  // are pressed by the nodes near them, whose area is that of the triangles at the corner or that of one node.
+  void add_stiffness_bound(Vector& row_sums) const override {
+    for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
+      double largest = 0;
+      for (const auto& [node, area] : other->areas()) largest = std::max(largest, area);
+      for (const auto& [node, area] : own->areas()) row_sums[node] += law_.stiffness * (area + 6 * area + largest);
+    }
+  }
+
+  double contact_stiffness() const override {
+    double largest = 0;
+    for (const ContactSurface* surface : {&first_, &second_})
+      for (const auto& [node, area] : surface->areas()) largest = std::max(largest, area);
+    return law_.stiffness * largest;
+  }
+
+ private:
+  static std::array<int, 4> nodes_of(const Touch& touch) {
+    return {touch.node, touch.triangle[0], touch.triangle[1], touch.triangle[2]};
+  }
+
+  // visit(touch, k A / 2)
+  template <class Visit>
+  void for_each_touch(const NodalVector& x, Visit&& visit) const {
+    for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
+      const PlacedSurface placed(*other, x, law_.reach);
+      for (const auto& [node, area] : own->areas())
+        if (const auto touch = placed.touch_of(node)) visit(*touch, law_.stiffness * area / 2);
+    }
+  }
+
+  std::string name_;
+  ContactLaw law_;
+  ContactSurface first_, second_;
+  const BlockPattern& pattern_;
+};
+
+class BodyContactChoice : public TermChoice {
+ public:
+  static const Spec<BodyContactChoice>& spec() {
+    using C = BodyContactChoice;
+    static const auto s =
+        Spec<C>()
+            .key("between", &C::between_, "Two surfaces that can touch.", {.required = true})
+            .key("stiffness", &C::stiffness_,
+                 "Pressure per depth; about Young's modulus over the size of a cell. The depth under the pressure p is "
+                 "p over the stiffness, plus half of the onset.",
+                 {.required = true, .unit = "Pa/m", .range = kPositive})
+            .key("onset", &C::onset_, "Depth over which contact sets in; default a hundredth of the mean cell edge.",
+                 {.unit = "m", .range = kPositive})
+            .key("reach", &C::reach_,
+                 "Largest depth of a node that is in contact; default half the mean cell edge. A node that gets deeper "
+                 "in "
+                 "one step passes through: keep it below half the thickness of thin bodies.",
+                 {.unit = "m", .range = kPositive})
+            .key("slide", &C::slide_,
+                 "Nodes that are farther apart at rest never touch, which saves memory; default no limit.",
+                 {.unit = "m", .range = kPositive})
+            .check([](const C& contact, const Config& config) {
+              if (contact.between_[0] == contact.between_[1])
+                config.at("between").fail("names one surface twice; contact of a surface with itself is not available");
+            });
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1);
+    require_apart(first, second);
+    const double edge = std::min(first.mean_edge(), second.mean_edge());
+    const ContactLaw law{stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge)};
+    return std::make_unique<BodyContact>(fmt::format("contact of {} and {}", between_[0], between_[1]), law,
+                                         std::move(first), std::move(second), body.pattern);
+  }
+
+  NodePairs couplings(const Mesh& mesh) const override {
+    constexpr std::size_t kMost = 4'000'000;
+    const ContactSurface first = surface(mesh, 0), second = surface(mesh, 1);
+    NodePairs pairs;
+    for (const auto& [a, area_of_a] : first.areas())
+      for (const auto& [b, area_of_b] : second.areas()) {
+        if (slide_ && (mesh.node(a) - mesh.node(b)).norm() > *slide_) continue;
+        pairs.emplace_back(a, b);
+        if (pairs.size() > kMost)
+          origin.fail(fmt::format(
+              "more than {} million pairs of nodes may touch: give `slide`, the largest distance at rest of "
+              "nodes that touch later, or smaller surfaces",
+              kMost / 1'000'000));
+      }
+    return pairs;
+  }
+
+  void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }
+
+  SourceLocation origin;
+
+ private:
+  ContactSurface surface(const Mesh& mesh, std::size_t k) const {
+    return {mesh, find_surface(mesh, between_[k], origin)};
+  }
+
+  void require_apart(const ContactSurface& first, const ContactSurface& second) const {
+    std::map<int, double> nodes(first.areas().begin(), first.areas().end());
+    for (const auto& [node, area] : second.areas())
+      if (nodes.contains(node))
+        origin.fail(fmt::format("the surfaces '{}' and '{}' share nodes; choose surfaces of different bodies",
+                                between_[0], between_[1]));
+  }
+
+  std::array<std::string, 2> between_;
+  double stiffness_ = 0;
+  std::optional<double> onset_, reach_, slide_;
+};
+
+const bool body_contact_registered = Registry<TermChoice>::add<BodyContactChoice>(
+    "contact", "Two surfaces of bodies that push each other back, by a smooth penalty; no friction, no damping.");
+
+}  // namespace
+}  // namespace orthodyn
