@@ -136,13 +136,20 @@ std::optional<Touch> PlacedSurface::touch_of(int node) const {
   }
   if (!nearest || !(nearest->r > 0)) return std::nullopt;
   const auto& nodes = surface_.triangles()[static_cast<std::size_t>(nearest->triangle)];
-  if (surface_.is_on_boundary(nodes, nearest->L)) return std::nullopt;
   const Triangle t = corners(nearest->triangle);
+  const Vec3 inward = -area_vector(t).normalized();
+  if (surface_.is_on_boundary(nodes, nearest->L)) {
+    // Beside an open surface, its planes reach a little farther: nodes that are exactly below its boundary touch.
+    constexpr double kBeside = 0.1;  // barycentric coordinate
+    const Vec3 foot = foot_on_plane(x, t);
+    const double depth = (x - t.col(0)).dot(inward);
+    if (foot.minCoeff() < -kBeside || !(depth > 0 && depth <= reach_)) return std::nullopt;
+    return Touch{node, nodes, {inward, depth, foot, t, true}};
+  }
   const Vec3 y = x - t * nearest->L;
   if (!(y.dot(normal) < 0)) return std::nullopt;
   const bool is_inside = nearest->L.minCoeff() > 0;  // then the normal has more digits than y
-  return Touch{
-      node, nodes, {is_inside ? Vec3(-area_vector(t).normalized()) : Vec3(y / nearest->r), nearest->r, nearest->L, t}};
+  return Touch{node, nodes, {is_inside ? inward : Vec3(y / nearest->r), nearest->r, nearest->L, t}};
 }
 
 }  // namespace orthodyn

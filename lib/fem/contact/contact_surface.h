@@ -52,7 +52,7 @@ class PlacedSurface {
   PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach);
 
   // The nearest point of the surface to a node that lies below the surface; empty for other nodes, and for nodes beside
-  // the boundary of an open surface.
+  // an open surface.
   std::optional<Touch> touch_of(int node) const;
 
  private:

@@ -34,6 +34,13 @@ Vec3 nearest_point(const Vec3& x, const Triangle& triangle) {
   return {va / sum, vb / sum, vc / sum};
 }
 
+Vec3 foot_on_plane(const Vec3& x, const Triangle& triangle) {
+  Eigen::Matrix<double, 3, 2> E;
+  E << triangle.col(1) - triangle.col(0), triangle.col(2) - triangle.col(0);
+  const Eigen::Vector2d m = (E.transpose() * E).inverse() * (E.transpose() * (x - triangle.col(0)));
+  return {1 - m[0] - m[1], m[0], m[1]};
+}
+
 Vec12 Distance::gradient() const {
   Vec12 out;
   out << n, -L[0] * n, -L[1] * n, -L[2] * n;
@@ -45,7 +52,7 @@ Mat12 Distance::second_derivative() const {
   B << Mat3::Identity(), -L[0] * Mat3::Identity(), -L[1] * Mat3::Identity(), -L[2] * Mat3::Identity();
   std::vector<int> corners;  // of the triangle, the edge or the corner that p lies in
   for (int k = 0; k < 3; ++k)
-    if (L[k] > 0) corners.push_back(k);
+    if (on_plane || L[k] > 0) corners.push_back(k);
   Mat12 out = B.transpose() * B;
   const auto m = static_cast<Eigen::Index>(corners.size()) - 1;
   if (m > 0) {

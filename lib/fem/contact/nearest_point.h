@@ -7,6 +7,9 @@ namespace orthodyn {
 
 using Triangle = Mat3;  // corners as columns, m
 
+// The barycentric coordinates of the foot of x on the plane of a triangle.
+Vec3 foot_on_plane(const Vec3& x, const Triangle& triangle);
+
 // The barycentric coordinates of the point of a triangle that is nearest to x. Those of corners that do not matter are
 // exactly 0: all are positive inside, two on an edge, one at a corner.
 Vec3 nearest_point(const Vec3& x, const Triangle& triangle);
@@ -25,6 +28,7 @@ struct Distance {
   double r;
   Vec3 L;
   Triangle triangle;
+  bool on_plane = false;  // p is the nearest point of the plane of the triangle, which may lie beside the triangle
 
   Vec12 gradient() const;
   Mat12 second_derivative() const;  // m

@@ -111,13 +111,27 @@ class BodyContact : public Term {
   const BlockPattern& pattern_;
 };
 
+// The outer faces of the body whose nodes all belong to a region.
+std::vector<FaceCorners> outer_faces(const Mesh& mesh, int region) {
+  std::vector<char> is_inside(mesh.nodes.size(), 0);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    if (mesh.region_of[cell] == region)
+      for (const int node : mesh.cells[cell]) is_inside[static_cast<std::size_t>(node)] = 1;
+  std::vector<FaceCorners> faces = boundary_faces(mesh);
+  std::erase_if(faces, [&](const FaceCorners& face) {
+    return !std::all_of(face.begin(), face.end(), [&](int node) { return is_inside[static_cast<std::size_t>(node)]; });
+  });
+  return faces;
+}
+
 class BodyContactChoice : public TermChoice {
  public:
   static const Spec<BodyContactChoice>& spec() {
     using C = BodyContactChoice;
     static const auto s =
         Spec<C>()
-            .key("between", &C::between_, "Two surfaces that can touch.", {.required = true})
+            .key("between", &C::between_, "Two surfaces that can touch; a region stands for its whole outer surface.",
+                 {.required = true})
             .key("stiffness", &C::stiffness_,
                  "Pressure per depth; about Young's modulus over the size of a cell. The depth under the pressure p is "
                  "p over the stiffness, plus half of the onset.",
@@ -149,7 +163,7 @@ class BodyContactChoice : public TermChoice {
   }
 
   NodePairs couplings(const Mesh& mesh) const override {
-    constexpr std::size_t kMost = 4'000'000;
+    constexpr std::size_t kMost = 1'000'000;
     const ContactSurface first = surface(mesh, 0), second = surface(mesh, 1);
     NodePairs pairs;
     for (const auto& [a, area_of_a] : first.areas())
@@ -157,10 +171,10 @@ class BodyContactChoice : public TermChoice {
         if (slide_ && (mesh.node(a) - mesh.node(b)).norm() > *slide_) continue;
         pairs.emplace_back(a, b);
         if (pairs.size() > kMost)
-          origin.fail(fmt::format(
-              "more than {} million pairs of nodes may touch: give `slide`, the largest distance at rest of "
-              "nodes that touch later, or smaller surfaces",
-              kMost / 1'000'000));
+          origin.fail(
+              fmt::format("more than {} pairs of nodes may touch: give `slide`, the largest distance at rest of "
+                          "nodes that touch later, or smaller surfaces",
+                          kMost));
       }
     return pairs;
   }
@@ -171,7 +185,11 @@ class BodyContactChoice : public TermChoice {
 
  private:
   ContactSurface surface(const Mesh& mesh, std::size_t k) const {
-    return {mesh, find_surface(mesh, between_[k], origin)};
+    const auto& regions = mesh.region_names;
+    const auto region = std::find(regions.begin(), regions.end(), between_[k]);
+    if (mesh.surfaces.contains(between_[k]) || region == regions.end())
+      return {mesh, find_surface(mesh, between_[k], origin)};
+    return {mesh, outer_faces(mesh, static_cast<int>(region - regions.begin()))};
   }
 
   void require_apart(const ContactSurface& first, const ContactSurface& second) const {

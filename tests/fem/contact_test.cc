@@ -1,0 +1,187 @@
+// Contact of bodies: the nearest point and its derivatives, forces, tangents, resultants, pressure, and input that is
+// refused.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lib/fem/contact/contact_surface.h"
+#include "lib/fem/contact/penalty.h"
+#include "tests/fem/built_scene.h"
+#include "tests/fem/derivatives.h"
+
+namespace orthodyn::contact_test {
+namespace {
+
+struct Place {
+  const char* name;
+  Vec3 x;
+  int corners;  // of the triangle, edge or corner that is nearest
+};
+const Triangle kTriangle = (Triangle() << 0, 1, 0.2, 0, 0.1, 0.9, 0, 0.05, -0.1).finished();
+
+class NearestPoint : public testing::TestWithParam<Place> {};
+INSTANTIATE_TEST_SUITE_P(Places, NearestPoint,
+                         testing::Values(Place{"inside", {0.4, 0.3, -0.3}, 3}, Place{"edge", {0.5, -0.4, -0.3}, 2},
+                                         Place{"edge_2", {0.9, 0.9, 0.2}, 2}, Place{"corner", {-0.5, -0.4, -0.3}, 1},
+                                         Place{"corner_2", {1.5, -0.1, 0.3}, 1}),
+                         [](const testing::TestParamInfo<Place>& tested) { return std::string(tested.param.name); });
+
+Distance distance(const Vec12& z) {
+  Triangle t;
+  t << z.segment<3>(3), z.segment<3>(6), z.segment<3>(9);
+  const Vec3 x = z.head<3>(), L = nearest_point(x, t), y = x - t * L;
+  return {y.normalized(), y.norm(), L, t};
+}
+
+Vec12 all_coordinates(const Vec3& x) {
+  Vec12 z;
+  z << x, kTriangle.col(0), kTriangle.col(1), kTriangle.col(2);
+  return z;
+}
+
+TEST_P(NearestPoint, IsNearerThanAllOthers) {
+  const Vec3 L = nearest_point(GetParam().x, kTriangle);
+  EXPECT_EQ((L.array() > 0).count(), GetParam().corners);
+  EXPECT_NEAR(L.sum(), 1, 1e-15);
+  const double r = (GetParam().x - kTriangle * L).norm();
+  for (int i = 0; i <= 40; ++i)
+    for (int j = 0; i + j <= 40; ++j) {
+      const Vec3 other(i / 40.0, j / 40.0, (40 - i - j) / 40.0);
+      EXPECT_GE((GetParam().x - kTriangle * other).norm(), r - 1e-15);
+    }
+}
+
+TEST_P(NearestPoint, HasItsDerivatives) {
+  const Vec12 z = all_coordinates(GetParam().x);
+  Random random(71);
+  const Vec12 direction = random_dofs(random, 12, 1);
+  const Distance at = distance(z);
+  expect_derivative([&](double h) { return one(distance(z + h * direction).r); }, one(at.gradient().dot(direction)));
+  expect_derivative([&](double h) { return Vector(distance(z + h * direction).gradient()); },
+                    at.second_derivative() * direction / at.r);
+}
+
+// A block that lies `overlap` m deep in another one, moved sideways.
+std::string blocks(const std::string& lower, const std::string& upper, double overlap, const std::string& more = "") {
+  return fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {{mesh: {{type: box, size: [1, 1, 0.5], {}}}}}
+    upper: {{mesh: {{type: box, size: [0.6, 0.6, 0.5], {}}}, translation: [0.17, 0.13, {}]}}
+materials: {{m: {{type: orthotropic_stable, density: 1, young: [10, 1, 2], nu: 0.3}}}}
+terms: [{{type: contact, between: [lower.z1, upper.z0], stiffness: 20, onset: 0.01}}]
+time: {{end: 1}}
+{}
+)",
+                     lower, upper, 0.5 - overlap, more);
+}
+
+struct Meshes {
+  const char *name, *lower, *upper;
+};
+class ContactOf : public testing::TestWithParam<Meshes> {};
+INSTANTIATE_TEST_SUITE_P(Elements, ContactOf,
+                         testing::Values(Meshes{"tet4", "cells: [4, 3, 1], order: 1", "cells: [3, 2, 1], order: 1"},
+                                         Meshes{"tet10", "cells: [2, 3, 1]", "cells: [3, 2, 1]"},
+                                         Meshes{"hex8", "cells: [4, 3, 1], elements: hexahedra, order: 1",
+                                                "cells: [3, 2, 1], elements: hexahedra, order: 1"},
+                                         Meshes{"hex20", "cells: [2, 3, 1], elements: hexahedra",
+                                                "cells: [3, 2, 1], elements: hexahedra"},
+                                         Meshes{"hex27", "cells: [2, 3, 1], elements: hexahedra_27",
+                                                "cells: [3, 2, 1], elements: hexahedra_27"}),
+                         [](const testing::TestParamInfo<Meshes>& tested) { return std::string(tested.param.name); });
+
+TEST_P(ContactOf, ForceAndTangentAreDerivatives) {
+  const BuiltTestScene s(blocks(GetParam().lower, GetParam().upper, 0.03));
+  Random random(72);
+  const Vector q = random_dofs(random, s.size(), 2e-3), d = random_dofs(random, s.size(), 0.05);
+  const BuiltTestScene apart(blocks(GetParam().lower, GetParam().upper, -0.1));
+  EXPECT_GE((s.force(q) - apart.force(q)).norm(), 1e-2) << "no contact";
+  expect_derivative([&](double h) { return one(s.potential(q + h * d)); }, one(-s.force(q).dot(d)));
+  expect_derivative([&](double h) { return s.force(q + h * d); }, -s.stiffness(q) * d);
+}
+
+TEST_P(ContactOf, ForcesHaveNoResultantAndNoTorque) {
+  const BuiltTestScene s(blocks(GetParam().lower, GetParam().upper, 0.03));
+  Random random(73);
+  const Vector q = random_dofs(random, s.size(), 5e-3);
+  NodalVector f = NodalVector::Zero(3, s.positions(q).cols());
+  s.model().parts().dofs->add_forces_to(s.force(q), f);
+  Vec3 torque = Vec3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vec3(s.positions(q).col(i)).cross(Vec3(f.col(i)));
+  EXPECT_LE(f.rowwise().sum().norm(), 1e-13 * f.norm());
+  EXPECT_LE(torque.norm(), 1e-13 * f.norm());
+}
+
+// At rest, all of the upper surface is 0.03 deep: k psi'(0.03) = 20 (0.03 - 0.005) Pa on 0.36 m^2 for the nodes of the
+// upper surface, and as much for those of the lower one that lie below it.
+TEST_P(ContactOf, PressureIsThatOfTheDepth) {
+  const BuiltTestScene s(blocks(GetParam().lower, GetParam().upper, 0.03));
+  NodalVector f = NodalVector::Zero(3, s.positions(s.zero()).cols());
+  s.model().parts().dofs->add_forces_to(s.force(s.zero()), f);
+  double own = 0;
+  for (const auto& [node, area] : ContactSurface(s.mesh(), s.mesh().surfaces.at("upper.z0")).areas()) own += f(2, node);
+  const double exact = 0.36 * 20 * 0.025;
+  EXPECT_NEAR(own, exact, 0.4 * exact);  // nodes of the lower surface have areas that the upper one covers in part
+  EXPECT_GE(own, 0.5 * exact);
+}
+
+TEST(Contact, ActsBelowTheSurfaceUpToTheReachOnly) {
+  const std::string lower = "cells: [2, 2, 1], order: 1", upper = "cells: [1, 1, 1], order: 1";
+  const auto energy = [&](double overlap) {
+    const BuiltTestScene s(blocks(lower, upper, overlap));
+    return s.potential(s.zero());
+  };
+  EXPECT_EQ(energy(-0.01), 0);
+  EXPECT_EQ(energy(0), 0);
+  EXPECT_GT(energy(0.005), 0);
+  EXPECT_GT(energy(0.1), energy(0.05));
+  EXPECT_EQ(energy(0.45), 0);  // half of the mean edge is less
+}
+
+// A corner of one block below an edge of the other: the nearest points lie on an edge of a bent surface, whose side is
+// that of the mean normal.
+TEST(Contact, KnowsTheInsideAtEdgesAndCorners) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.5}};  // a roof, and its walls below
+  const std::vector<FaceCorners> roof{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  Mesh solid = mesh;
+  solid.nodes.push_back({0.5, 0.5, -0.5});
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 3), std::pair(3, 0)})
+    solid.cells.add(CellShape::tet4, std::vector<int>{a, b, 4, 5});
+  const ContactSurface surface(solid, roof);
+  NodalVector x(3, 7);
+  for (Eigen::Index i = 0; i < 6; ++i) x.col(i) = solid.nodes[static_cast<std::size_t>(i)];
+  const auto depth = [&](const Vec3& place) {
+    x.col(6) = place;
+    const auto touch = PlacedSurface(surface, x, 0.3).touch_of(6);
+    return touch ? touch->distance.r : -1;
+  };
+  EXPECT_NEAR(depth({0.5, 0.4, 0.3}), 0.1 / std::sqrt(2.0), 1e-12);  // below the roof's side y < x
+  EXPECT_EQ(depth({0.5, 0.5, 0.6}), -1);                             // above the top
+  EXPECT_EQ(depth({0.5, 0.2, 0.3}), -1);                             // above a side
+  EXPECT_EQ(depth({0.5, -0.1, -0.1}), -1);                           // beside the boundary
+  EXPECT_GT(depth({0.5, 0.5, 0.4}), 0);                              // below the top
+}
+
+TEST(Contact, IsRefusedWithTheReason) {
+  const auto message = [](const std::string& between) {
+    std::string yaml = blocks("cells: [1, 1, 1]", "cells: [1, 1, 1]", 0);
+    yaml.replace(yaml.find("[lower.z1, upper.z0]"), 20, between);
+    try {
+      const BuiltTestScene s(yaml);
+      return std::string("accepted");
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+  };
+  using testing::HasSubstr;
+  EXPECT_EQ(message("[lower.z1, upper.z0]"), "accepted");
+  EXPECT_THAT(message("[lower.z1, lower.z1]"), HasSubstr("twice"));
+  EXPECT_THAT(message("[lower.z1, lower.x0]"), HasSubstr("share nodes"));
+  EXPECT_THAT(message("[lower.z1, upper.z9]"), HasSubstr("upper.z0"));
+}
+
+}  // namespace
+}  // namespace orthodyn::contact_test
