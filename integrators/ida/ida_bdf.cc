@@ -5,6 +5,8 @@
 #include <idas/idas.h>
 #include <idas/idas_ls.h>
 
+#include <algorithm>
+
 #include "integrators/run_checks.h"
 #include "integrators/sundials/bdf_order.h"
 #include "integrators/sundials/forward_sensitivities.h"
@@ -53,9 +55,7 @@ class IdaBdf final : public SundialsIntegrator {
     require(IDAInit(m, residual, t, y(), y_dot_.get()));
     set_error_weights();
     require(IDASetMaxOrd(m, max_order_));
-    // With internal variables, iterations that IDA takes for converged leave torques (docs/decisions.md).
-    constexpr double kWithInternals = 1e-3;
-    require(IDASetNonlinConvCoef(m, (internal_ ? kWithInternals : 1) * options_.nonlinear_coefficient));
+    require(IDASetNonlinConvCoef(m, nonlinear_coefficient()));
     set_step_limits();
     if (model_.constraints()) exclude_multipliers();
     if (!model_.traits().smooth) use_nonsmooth_newton();
@@ -64,6 +64,14 @@ class IdaBdf final : public SundialsIntegrator {
     attach_linear_solver();
     require(IDASetJacFn(m, linearize));
     if (sensitivities_) start_sensitivities(t);
+  }
+
+  // Newton's method stops at this multiple of the tolerance. With internal variables, iterations that IDA takes for
+  // converged leave torques (docs/decisions.md); below 1e-15 of the unknowns, rounding ends the iteration.
+  double nonlinear_coefficient() const {
+    constexpr double kWithInternals = 1e-5, kRounding = 1e-15;
+    const double usual = options_.nonlinear_coefficient;
+    return internal_ ? std::min(usual, std::max(kWithInternals * usual, kRounding / options_.rtol)) : usual;
   }
 
   void start_sensitivities(double t) {

@@ -91,7 +91,7 @@ TEST(Impact, KeepsMomentumAndEnergy) {
 mesh:
   type: bodies
   bodies:
-    a: {mesh: {type: box, size: [0.4, 0.4, 0.4], cells: [2, 2, 2], order: 1}, axis: [1, 2, 0.5], angle: 0.4}
+    a: {mesh: {type: box, size: [0.4, 0.4, 0.4], cells: [2, 2, 2], order: 1}, axis: [1, 2, 0.5], angle: 0.4 rad}
     b: {mesh: {type: box, size: [0.4, 0.4, 0.4], cells: [2, 2, 2], order: 1}, translation: [0.2, 0.1, 0.75]}
 materials: {m: {type: orthotropic_stable, density: 10, young: [4e3, 1e3, 2e3], nu: 0.3}}
 terms: [{type: contact, between: [a, b], stiffness: 2e4}]
