@@ -102,6 +102,23 @@ TEST_P(ContactOf, ForceAndTangentAreDerivatives) {
   expect_derivative([&](double h) { return s.force(q + h * d); }, -s.stiffness(q) * d);
 }
 
+// Friction acts against the relative velocities of the bodies: the derivatives by velocity, the dissipated power, and
+// no resultant.
+TEST_P(ContactOf, FrictionHasItsDerivativesAndDissipates) {
+  std::string yaml = blocks(GetParam().lower, GetParam().upper, 0.03);
+  yaml.replace(yaml.find("onset: 0.01"), 11, "onset: 0.01, friction: 0.4, creep: 0.5");
+  const BuiltTestScene s(yaml), smooth(blocks(GetParam().lower, GetParam().upper, 0.03));
+  Random random(74);
+  const Vector q = random_dofs(random, s.size(), 2e-3), v = random_dofs(random, s.size(), 1),
+               d = random_dofs(random, s.size(), 0.1);
+  const Vector drag = s.force(q, v) - smooth.force(q, v);
+  EXPECT_GE(drag.norm(), 1e-2);
+  EXPECT_LE(std::abs(drag.sum()), 1e-12 * drag.norm());
+  EXPECT_NEAR(s.scalar("power.dissipated", q, v), -drag.dot(v), 1e-12 * drag.norm() * v.norm());
+  EXPECT_GT(s.scalar("power.dissipated", q, v), 0);
+  expect_derivative([&](double h) { return s.force(q, v + h * d); }, -s.matrix({0, 1, 0}, q, v) * d);
+}
+
 TEST_P(ContactOf, ForcesHaveNoResultantAndNoTorque) {
   const BuiltTestScene s(blocks(GetParam().lower, GetParam().upper, 0.03));
   Random random(73);

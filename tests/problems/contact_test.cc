@@ -85,6 +85,38 @@ integrator: {type: cvode_bdf, rtol: 1e-6}
   EXPECT_NEAR(top, -(2.0 / 100 + 2.0 / 400 + 0.5e-3), 1e-4);
 }
 
+// A block on an inclined plane, which is the ground or the face of a clamped body, with mu below and above the tangent
+// tan(a) = 0.5 of its angle: x = g (sin a - mu cos a) t^2/2, and creep at the velocity w with
+// w / sqrt(w^2 + c^2) = tan(a)/mu.
+TEST(Friction, LetsABlockSlideOrHoldsIt) {
+  const std::string ground =
+      "mesh: {type: box, size: [0.1, 0.1, 0.05], cells: [2, 2, 1], elements: hexahedra, order: 1}\n"
+      "terms: [{type: ground_contact, stiffness: 1e9, onset: 1e-5, creep: 1e-3, friction: ";
+  const std::string body =
+      "mesh: {type: bodies, bodies: {block: {mesh: {type: box, size: [0.1, 0.1, 0.05], cells: [2, 2, 1], elements: "
+      "hexahedra, order: 1}}, slope: {mesh: {type: box, size: [1, 0.3, 0.1], cells: [10, 3, 1], elements: hexahedra, "
+      "order: 1}, translation: [-0.1, -0.1, -0.1]}}}\nclamps: [{surface: slope.z0}]\n"
+      "terms: [{type: contact, between: [block.z0, slope.z1], stiffness: 1e9, onset: 1e-5, creep: 1e-3, friction: ";
+  for (const std::string& scene : {ground, body})
+    for (const double mu : {0.2, 1.0}) {
+      const double c = 1 / std::sqrt(1.25), s = 0.5 * c, end = 0.4;
+      const BuiltTestScene built(scene + fmt::format(R"({}}}]
+materials: {{m: {{type: isotropic, density: 1000, young: 1e7, nu: 0}}}}
+gravity: [{}, 0, {}]
+damping: {{stiffness: 1e-4}}
+time: {{end: {}}}
+integrator: {{type: cvode_bdf, rtol: 1e-5}}
+)",
+                                                     mu, 10 * s, -10 * c, end));
+      const Motion motion = motion_of(built);
+      const NodalVector u = built.nodal(motion.last.q);
+      const double way = u.row(0).head(18).mean();  // of the nodes of the block
+      const double slides = 10 * (s - mu * c) * end * end / 2, creeps = 1e-3 * end * 0.5 / std::sqrt(mu * mu - 0.25);
+      if (mu < 0.5) EXPECT_NEAR(way, slides, 0.02 * slides) << scene;
+      else EXPECT_NEAR(way, creeps, 0.1 * creeps) << scene;
+    }
+}
+
 // Two soft blocks collide off their centres in flight: momentum and energy.
 TEST(Impact, KeepsMomentumAndEnergy) {
   const BuiltTestScene s(R"(

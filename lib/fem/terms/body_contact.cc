@@ -1,4 +1,4 @@
-// Frictionless contact of two surfaces by a smooth penalty. A node of one surface at the depth d below the other one
+// Contact of two surfaces by a smooth penalty. A node of one surface at the depth d below the other one
 // has the energy k A psi(d) / 2, with the node's area A, the stiffness k (Pa/m) and the function psi of penalty.h. Both
 // surfaces are treated alike, so that at the depth d the pressure is k psi'(d). The depth is the distance of the
 // nearest point of the other surface in its present shape. Forces are -grad of the energy: they have no resultant and
@@ -9,6 +9,7 @@
 #include <map>
 
 #include "lib/fem/contact/contact_surface.h"
+#include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/penalty.h"
 #include "lib/fem/term_choice.h"
 #include "lib/mesh/selection.h"
@@ -20,6 +21,7 @@ struct ContactLaw {
   double stiffness = 0;  // Pa/m
   double onset = 0;      // m
   double reach = 0;      // m; deeper nodes are not in contact
+  Friction friction = {};
 };
 
 class BodyContact : public Term {
@@ -41,24 +43,39 @@ class BodyContact : public Term {
       const Vec12 force = -stiffness * penalty_slope(touch.distance.r, law_.onset) * touch.distance.gradient();
       const auto nodes = nodes_of(touch);
       for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += force.segment<3>(3 * k);
+      if (!law_.friction.acts()) return;
+      const Vec3 drag =
+          law_.friction.force(relative_velocity(touch, s.v), touch.distance.n, pressing(touch, stiffness));
+      const Eigen::Vector4d share = shares(touch);
+      for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += share[k] * drag;
     });
   }
 
   // Gauss-Newton: without the second derivative of the distance.
-  void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const override {
+  void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
     for_each_touch(s.x, [&](const Touch& touch, double k) {
       const double d = touch.distance.r;
       const Vec12 slope = touch.distance.gradient();
       Mat12 K = k * penalty_curvature(d, law_.onset) * slope * slope.transpose();
       if (kind == TangentKind::exact) K += k * penalty_slope(d, law_.onset) / d * touch.distance.second_derivative();
-      const auto nodes = nodes_of(touch);
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) {
-          const int a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
-          if (pattern_.symmetric() && a < b) continue;
-          pattern_.add(a, b, pattern_.offset(a, b), K.block<3, 3>(3 * i, 3 * j), stiffness);
-        }
+      add_blocks(
+          touch, [&](int i, int j) { return Mat3(K.block<3, 3>(3 * i, 3 * j)); }, stiffness);
+      if (!law_.friction.acts() || !damping) return;
+      const Eigen::Vector4d share = shares(touch);
+      const Mat3 D = law_.friction.damping(relative_velocity(touch, s.v), touch.distance.n, pressing(touch, k));
+      add_blocks(
+          touch, [&](int i, int j) { return Mat3(share[i] * share[j] * D); }, damping);
     });
+  }
+
+  double dissipation(const NodalState& s) const override {
+    if (!law_.friction.acts()) return 0;
+    double sum = 0;
+    for_each_touch(s.x, [&](const Touch& touch, double k) {
+      const Vec3 velocity = relative_velocity(touch, s.v);
+      sum -= velocity.dot(law_.friction.force(velocity, touch.distance.n, pressing(touch, k)));
+    });
+    return sum;
   }
 
   void add_mean_force(const NodalState&, const NodalState&, NodalVector&) const override {
@@ -95,6 +112,35 @@ class BodyContact : public Term {
     return {touch.node, touch.triangle[0], touch.triangle[1], touch.triangle[2]};
   }
 
+  // The shares of a node and of the corners of its triangle in a relative displacement.
+  static Eigen::Vector4d shares(const Touch& touch) {
+    const Vec3& L = touch.distance.L;
+    return {1, -L[0], -L[1], -L[2]};
+  }
+  static Vec3 relative_velocity(const Touch& touch, const NodalVector& v) {
+    const auto nodes = nodes_of(touch);
+    const Eigen::Vector4d share = shares(touch);
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) sum += share[k] * v.col(nodes[static_cast<std::size_t>(k)]);
+    return sum;
+  }
+  // The normal force of a touch of the stiffness k A / 2, N.
+  double pressing(const Touch& touch, double stiffness) const {
+    return stiffness * penalty_slope(touch.distance.r, law_.onset);
+  }
+
+  // block(i, j): between the node (0) and the corners (1 to 3) of a touch.
+  template <class Block>
+  void add_blocks(const Touch& touch, Block&& block, double* values) const {
+    const auto nodes = nodes_of(touch);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const int a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
+        if (pattern_.symmetric() && a < b) continue;
+        pattern_.add(a, b, pattern_.offset(a, b), block(i, j), values);
+      }
+  }
+
   // visit(touch, k A / 2)
   template <class Visit>
   void for_each_touch(const NodalVector& x, Visit&& visit) const {
@@ -128,7 +174,7 @@ class BodyContactChoice : public TermChoice {
  public:
   static const Spec<BodyContactChoice>& spec() {
     using C = BodyContactChoice;
-    static const auto s =
+    static const auto s = with_friction(
         Spec<C>()
             .key("between", &C::between_, "Two surfaces that can touch; a region stands for its whole outer surface.",
                  {.required = true})
@@ -149,7 +195,8 @@ class BodyContactChoice : public TermChoice {
             .check([](const C& contact, const Config& config) {
               if (contact.between_[0] == contact.between_[1])
                 config.at("between").fail("names one surface twice; contact of a surface with itself is not available");
-            });
+            }),
+        &C::friction_, &C::creep_);
     return s;
   }
 
@@ -157,7 +204,7 @@ class BodyContactChoice : public TermChoice {
     ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1);
     require_apart(first, second);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
-    const ContactLaw law{stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge)};
+    const ContactLaw law{stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}};
     return std::make_unique<BodyContact>(fmt::format("contact of {} and {}", between_[0], between_[1]), law,
                                          std::move(first), std::move(second), body.pattern);
   }
@@ -179,7 +226,10 @@ class BodyContactChoice : public TermChoice {
     return pairs;
   }
 
-  void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }
+  void declare(Traits& traits) const override {
+    traits.linear = traits.smooth = false;
+    Friction{friction_, creep_}.declare(traits);
+  }
 
   SourceLocation origin;
 
@@ -201,12 +251,12 @@ class BodyContactChoice : public TermChoice {
   }
 
   std::array<std::string, 2> between_;
-  double stiffness_ = 0;
+  double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
   std::optional<double> onset_, reach_, slide_;
 };
 
 const bool body_contact_registered = Registry<TermChoice>::add<BodyContactChoice>(
-    "contact", "Two surfaces of bodies that push each other back, by a smooth penalty; no friction, no damping.");
+    "contact", "Two surfaces of bodies that push each other back, by a smooth penalty, with or without friction.");
 
 }  // namespace
 }  // namespace orthodyn

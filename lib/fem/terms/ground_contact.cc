@@ -1,14 +1,15 @@
-// Frictionless contact with a rigid plane by a smooth penalty. A node at position x has the depth d = (point - x) . n
-// below the plane with normal n. With its surface area A and the stiffness k (Pa/m), its energy is k A psi(d)
-// (lib/fem/contact/penalty.h). The force is k A psi'(d) n, the stiffness k A psi''(d) n n^T. The contact stiffness
-// builds up over the depth w. The mean force between two states takes the mean of psi' over the depths between them.
-// Without damping, the plane returns all energy.
+// Contact with a rigid plane by a smooth penalty, with or without friction (lib/fem/contact/friction.h). A node at
+// position x has the depth d = (point - x) . n below the plane with normal n. With its surface area A and the stiffness
+// k (Pa/m), its energy is k A psi(d) (lib/fem/contact/penalty.h). The force is k A psi'(d) n, the stiffness k A
+// psi''(d) n n^T. The contact stiffness builds up over the depth w. The mean force between two states takes the mean of
+// psi' over the depths between them. Without damping, the plane returns all energy.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lib/fem/block_pattern.h"
+#include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/penalty.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
@@ -21,6 +22,7 @@ struct GroundPlane {
   Vec3 point = Vec3::Zero(), normal{0, 0, 1};  // m; unit vector away from the ground
   double stiffness = 0;                        // Pa/m
   double onset = 0;                            // w, m
+  Friction friction = {};
 };
 
 // Mean of psi' over [a, b]. Simpson's rule is exact if psi' is a single polynomial in [a, b]. It also replaces the
@@ -51,8 +53,19 @@ class GroundContact : public Term {
 
   void add_force(const NodalState& s, NodalVector& f) const override {
     for (const auto& [node, area] : areas_)
+      if (const double d = depth(node, s.x); d > 0) f.col(node) += pressing(d, area) * plane_.normal;
+    if (!plane_.friction.acts()) return;
+    for (const auto& [node, area] : areas_)
       if (const double d = depth(node, s.x); d > 0)
-        f.col(node) += plane_.stiffness * area * penalty_slope(d, plane_.onset) * plane_.normal;
+        f.col(node) += plane_.friction.force(s.v.col(node), plane_.normal, pressing(d, area));
+  }
+
+  double dissipation(const NodalState& s) const override {
+    double sum = 0;
+    for (const auto& [node, area] : areas_)
+      if (const double d = depth(node, s.x); d > 0 && plane_.friction.acts())
+        sum -= s.v.col(node).dot(plane_.friction.force(s.v.col(node), plane_.normal, pressing(d, area)));
+    return sum;
   }
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
@@ -62,12 +75,17 @@ class GroundContact : public Term {
     }
   }
 
-  void add_tangent(const NodalState& s, TangentKind, double* stiffness, double*) const override {
+  void add_tangent(const NodalState& s, TangentKind, double* stiffness, double* damping) const override {
     const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
     for (const auto& [node, area] : areas_)
       if (const double d = depth(node, s.x); d > 0)
         pattern_.add(node, node, pattern_.offset(node, node), area * penalty_curvature(d, plane_.onset) * across,
                      stiffness);
+    if (!plane_.friction.acts() || !damping) return;
+    for (const auto& [node, area] : areas_)
+      if (const double d = depth(node, s.x); d > 0)
+        pattern_.add(node, node, pattern_.offset(node, node),
+                     plane_.friction.damping(s.v.col(node), plane_.normal, pressing(d, area)), damping);
   }
 
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
@@ -89,6 +107,8 @@ class GroundContact : public Term {
   }
 
  private:
+  // Normal force of a node, N.
+  double pressing(double d, double area) const { return plane_.stiffness * area * penalty_slope(d, plane_.onset); }
   double depth(int node, const NodalVector& x) const { return plane_.normal.dot(plane_.point - x.col(node)); }
 
   GroundPlane plane_;
@@ -102,7 +122,7 @@ class GroundContactChoice : public TermChoice {
  public:
   static const Spec<GroundContactChoice>& spec() {
     using G = GroundContactChoice;
-    static const auto s =
+    static const auto s = with_friction(
         Spec<G>()
             .key("point", &G::point_, "A point of the plane.", {.unit = "m"})
             .key("normal", &G::normal_, "Away from the ground, of any length.")
@@ -113,31 +133,36 @@ class GroundContactChoice : public TermChoice {
             .key("surface", &G::surface_, "The surface that can touch the plane; default the whole outer surface.")
             .check([](const G& ground, const Config& config) {
               if (ground.normal_.norm() == 0) config.at("normal").fail("is zero; give a direction");
-            });
+            }),
+        &G::friction_, &G::creep_);
     return s;
   }
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
     const auto triangles = surface_or_all(body.mesh, surface_, origin);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
-    return std::make_unique<GroundContact>(GroundPlane{point_, normal_.normalized(), stiffness_, onset},
-                                           node_areas(body.mesh, triangles), body.pattern);
+    return std::make_unique<GroundContact>(
+        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}},
+        node_areas(body.mesh, triangles), body.pattern);
   }
 
-  void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }
+  void declare(Traits& traits) const override {
+    traits.linear = traits.smooth = false;
+    Friction{friction_, creep_}.declare(traits);
+  }
 
   SourceLocation origin;
 
  private:
   Vec3 point_ = Vec3::Zero(), normal_{0, 0, 1};
-  double stiffness_ = 0;
+  double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
   std::optional<double> onset_;
   std::optional<std::string> surface_;
 };
 
 const bool ground_contact_registered = Registry<TermChoice>::add<GroundContactChoice>(
     "ground_contact",
-    "A rigid plane that pushes back the parts of the body below it, by a smooth penalty; no friction, no damping.");
+    "A rigid plane that pushes back the parts of the body below it, by a smooth penalty, with or without friction.");
 const bool ground_renamed = Registry<TermChoice>::rename("ground", "ground_contact");
 
 }  // namespace

@@ -64,6 +64,7 @@ void check_hourglass(const CheckContext& context, Warnings& out);   // hourglass
 void check_layers(const CheckContext& context, Warnings& out);      // layers.cc: plies that share a cell
 void check_locking(const CheckContext& context, Warnings& out);     // locking.cc
 void check_fibres(const CheckContext& context, Warnings& out);      // fibres.cc
+void check_friction(const CheckContext& context, Warnings& out);    // friction.cc
 void check_relaxation(const CheckContext& context, Warnings& out);  // relaxation.cc: viscoelastic materials
 void check_turning(const CheckContext& context, Warnings& out);     // turning.cc: free rotation
 void check_event(const CheckContext& context, Warnings& out);       // events.cc

@@ -107,8 +107,8 @@ Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene
        {input_checks::check_material, input_checks::check_place, input_checks::check_load, input_checks::check_time,
         input_checks::check_motion, input_checks::check_freedom, input_checks::check_hourglass,
         input_checks::check_change, input_checks::check_layers, input_checks::check_locking, input_checks::check_fibres,
-        input_checks::check_relaxation, input_checks::check_turning, input_checks::check_damping,
-        input_checks::check_event, input_checks::check_setting})
+        input_checks::check_friction, input_checks::check_relaxation, input_checks::check_turning,
+        input_checks::check_damping, input_checks::check_event, input_checks::check_setting})
     add(context, out);
   return out;
 }
