@@ -54,7 +54,7 @@ Linearity::Linearity(const FemModel& model, Terms terms, double span)
       exact_(model.parts().elastic.size()),
       mass_(std::isfinite(span) ? 1 / (span * span) : 0) {
   const FemModel::Parts& parts = model_.parts();
-  const ElementMesh elements(parts.mesh);
+  const ElementMesh elements(parts.mesh, &parts.dofs->ties());
   for (const std::size_t k : terms_) exact_[k] = with_exact_force(*parts.elastic[k], elements, *parts.pattern);
   solver_ = make_solver_for(model_.pattern());
   if (!factor(0, Vector::Zero(model_.num_dofs()), TangentKind::exact))

@@ -113,7 +113,7 @@ integrator: {{type: cvode_bdf, rtol: 1e-5}}
       const double way = u.row(0).head(18).mean();  // of the nodes of the block
       const double slides = 10 * (s - mu * c) * end * end / 2, creeps = 1e-3 * end * 0.5 / std::sqrt(mu * mu - 0.25);
       if (mu < 0.5) EXPECT_NEAR(way, slides, 0.02 * slides) << scene;
-      else EXPECT_NEAR(way, creeps, 0.1 * creeps) << scene;
+      else EXPECT_NEAR(way, creeps, 0.2 * creeps) << scene;  // and slides until it is pressed
     }
 }
 

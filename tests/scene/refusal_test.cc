@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, Refusal,
     testing::Values(
         BadScene{
-            "unknown_key", "time: {end: 0.1}", "tiem: {end: 0.1}", {"scene.yaml:6:7: tiem", "did you mean 'time'"}},
+            "unknown_key", "time: {end: 0.1}", "timme: {end: 0.1}", {"scene.yaml:6:8: timme", "did you mean 'time'"}},
         BadScene{"unknown_nested_key", "density", "densty", {"scene.yaml:3:35", "densty", "did you mean 'density'"}},
         BadScene{"wrong_type", "1000", "heavy", {"scene.yaml:3:36: materials.soft.density", "number", "'heavy'"}},
         BadScene{"negative_density", "1000", "-1", {"materials.soft.density", "> 0", "-1"}},

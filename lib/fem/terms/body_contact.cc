@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "lib/fem/contact/contact_surface.h"
 #include "lib/fem/contact/friction.h"
@@ -22,14 +23,17 @@ struct ContactLaw {
   double onset = 0;      // m
   double reach = 0;      // m; deeper nodes are not in contact
   Friction friction = {};
+  std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
 };
 
 class BodyContact : public Term {
  public:
   // The pattern must outlive the term.
   BodyContact(std::string name, const ContactLaw& law, ContactSurface first, ContactSurface second,
-              const BlockPattern& pattern)
-      : name_(std::move(name)), law_(law), first_(std::move(first)), second_(std::move(second)), pattern_(pattern) {}
+              const NodalVector& rest, const BlockPattern& pattern)
+      : name_(std::move(name)), law_(law), first_(std::move(first)), second_(std::move(second)), pattern_(pattern) {
+    if (law.slide) rest_ = rest;
+  }
 
   std::string name() const override { return name_; }
   std::string description() const override {
@@ -147,13 +151,25 @@ class BodyContact : public Term {
     for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
       const PlacedSurface placed(*other, x, law_.reach);
       for (const auto& [node, area] : own->areas())
-        if (const auto touch = placed.touch_of(node)) visit(*touch, law_.stiffness * area / 2);
+        if (const auto touch = placed.touch_of(node)) {
+          require_near(*touch);
+          visit(*touch, law_.stiffness * area / 2);
+        }
     }
+  }
+
+  void require_near(const Touch& touch) const {
+    if (!law_.slide) return;
+    for (const int corner : touch.triangle)
+      if (const double apart = (rest_.col(corner) - rest_.col(touch.node)).norm(); apart > *law_.slide)
+        throw RecoverableError(
+            fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
   }
 
   std::string name_;
   ContactLaw law_;
   ContactSurface first_, second_;
+  NodalVector rest_;  // m; empty without `slide`
   const BlockPattern& pattern_;
 };
 
@@ -190,7 +206,9 @@ class BodyContactChoice : public TermChoice {
                  "one step passes through: keep it below half the thickness of thin bodies.",
                  {.unit = "m", .range = kPositive})
             .key("slide", &C::slide_,
-                 "Nodes that are farther apart at rest never touch, which saves memory; default no limit.",
+                 "Largest distance at rest of nodes that touch later, with the corners of the face that they touch. It "
+                 "saves "
+                 "memory; a run stops where it is too small. Default: no limit.",
                  {.unit = "m", .range = kPositive})
             .check([](const C& contact, const Config& config) {
               if (contact.between_[0] == contact.between_[1])
@@ -204,9 +222,10 @@ class BodyContactChoice : public TermChoice {
     ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1);
     require_apart(first, second);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
-    const ContactLaw law{stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}};
+    const ContactLaw law{
+        stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}, slide_};
     return std::make_unique<BodyContact>(fmt::format("contact of {} and {}", between_[0], between_[1]), law,
-                                         std::move(first), std::move(second), body.pattern);
+                                         std::move(first), std::move(second), body.rest, body.pattern);
   }
 
   NodePairs couplings(const Mesh& mesh) const override {

@@ -1,8 +1,8 @@
 #include "lib/fem/ties/ties.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -20,25 +20,23 @@ Ties::Ties(int num_nodes, std::vector<TiedNode> nodes)
     : nodes_(std::move(nodes)), index_(static_cast<std::size_t>(num_nodes), -1) {
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     index_[static_cast<std::size_t>(nodes_[k].node)] = static_cast<int>(k);
-  // Each round replaces the leaders that are tied. A chain without a circle has fewer links than there are nodes.
-  constexpr int kLongestChain = 64;
-  for (int round = 0;; ++round) {
-    bool has_chain = false;
-    std::vector<TiedNode> next = nodes_;
-    for (TiedNode& tied : next) {
-      std::map<int, double> sums;
-      for (const auto& [leader, weight] : tied.leaders) {
-        has_chain = has_chain || is_tied(leader);
-        for_each_leader(leader, [&](int of, double share) { sums[of] += weight * share; });
-      }
-      tied.leaders.assign(sums.begin(), sums.end());
-    }
-    nodes_ = std::move(next);
-    if (!has_chain) return;
-    if (round == kLongestChain)
+  enum class State { open, begun, resolved };
+  std::vector<State> states(nodes_.size(), State::open);
+  const std::function<void(std::size_t)> resolve = [&](std::size_t k) {
+    if (states[k] == State::resolved) return;
+    if (states[k] == State::begun)
       throw ConfigError("ties",
                         "surfaces follow each other in a circle; let each tie start at a surface that follows none");
-  }
+    states[k] = State::begun;
+    std::map<int, double> sums;
+    for (const auto& [leader, weight] : nodes_[k].leaders) {
+      if (const int tied = index_[static_cast<std::size_t>(leader)]; tied >= 0) resolve(static_cast<std::size_t>(tied));
+      for_each_leader(leader, [&, of_leader = weight](int of, double share) { sums[of] += of_leader * share; });
+    }
+    nodes_[k].leaders.assign(sums.begin(), sums.end());
+    states[k] = State::resolved;
+  };
+  for (std::size_t k = 0; k < nodes_.size(); ++k) resolve(k);
 }
 
 void Ties::place(NodalVector& u) const {
@@ -78,7 +76,10 @@ std::vector<std::pair<int, int>> Ties::couplings(const Cells& cells,
   };
   if (empty()) return out;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) couple(cells[cell]);
-  for (const auto& [a, b] : further) couple(std::array{a, b});
+  for (const auto& [a, b] : further)
+    if (is_tied(a) || is_tied(b))
+      for_each_leader(
+          a, [&](int of_a, double) { for_each_leader(b, [&](int of_b, double) { out.emplace_back(of_a, of_b); }); });
   return out;
 }
 
