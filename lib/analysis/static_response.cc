@@ -110,7 +110,8 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   // Without loads, a factorisation is worthwhile only for initial velocities of a held body that is not too large.
   const VectorSpace space = model.space();
   const Eigen::Index unknowns = model.num_dofs_of_all();
-  const bool is_free = unknowns == 3 * static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
+  const auto tied = std::ssize(model.parts().dofs->ties().nodes());
+  const bool is_free = unknowns == 3 * (std::ssize(model.parts().mesh.nodes) - tied);
   if (space.is_zero(load) && (space.is_zero(momentum) || is_free || unknowns > kLargestForVelocities)) return response;
   std::vector<double> values;
   const auto solver =

@@ -31,10 +31,10 @@ struct Support {
   std::vector<std::array<bool, 3>> held;  // which components, per node
 };
 
-// The tied nodes of a surface.
+// The tied nodes of a surface, and their leaders as given, which may be tied to others.
 struct NamedTie {
   std::string name;
-  std::vector<int> nodes;
+  std::vector<TiedNode> nodes;
 };
 
 class FemModel : public Model {

@@ -321,10 +321,13 @@ std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports) {
 std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties) {
   std::vector<FemOutput> out;
   for (const NamedTie& tie : ties)
-    out.push_back(
-        {{"tie." + tie.name, Location::global, 3, "N", "Force of the second surface of the tie on the first one.",
-          axis_names()},
-         [&tie](const View& view) { return flat(Vec3(view.tie_forces()(Eigen::all, tie.nodes).rowwise().sum())); }});
+    out.push_back({{"tie." + tie.name, Location::global, 3, "N",
+                    "Force of the second surface of the tie on the first one.", axis_names()},
+                   [&tie](const View& view) {
+                     Vec3 sum = Vec3::Zero();
+                     for (const TiedNode& tied : tie.nodes) sum += view.tie_forces().col(tied.node);
+                     return flat(sum);
+                   }});
   return out;
 }
 

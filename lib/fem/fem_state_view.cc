@@ -127,11 +127,47 @@ NodalVector FemStateView::forces() const {
   return f;
 }
 
+// The lumped masses of tied nodes, which have moved to their leaders, and their weight: m (a + alpha v - g).
+NodalVector FemStateView::lumped_inertia_of_ties(const NodalVector& f) const {
+  const Ties& ties = parts_.dofs->ties();
+  const Vector& masses = parts_.mass->nodal();
+  Vector free(parts_.dofs->num_dofs());
+  free_forces(parts_, nodal_, free_velocity(), f, free);
+  parts_.mass->solve(free);
+  NodalVector a = parts_.moved ? parts_.moved->accelerations(nodal_.time) : NodalVector::Zero(3, f.cols());
+  parts_.dofs->add_to(free, a);
+  std::vector<const Term*> weights;
+  for (const auto& term : parts_.loads)
+    if (term->energy_kind() == EnergyKind::gravitational) weights.push_back(term.get());
+  NodalVector g = term_forces(parts_, nodal_, weights);
+  for (Eigen::Index i = 0; i < g.cols(); ++i)
+    if (masses[i] > 0) g.col(i) /= masses[i];
+  a += parts_.mass_damping * nodal_.u_rate - g;
+  ties.place(a);
+  return a * parts_.mass->tied().asDiagonal();
+}
+
 const NodalVector& FemStateView::tie_forces() const {
   return once(tie_forces_, [&]() -> NodalVector {
+    const Ties& ties = parts_.dofs->ties();
     const NodalVector f = forces();
-    if (!parts_.tied_mass) return -f;
-    return parts_.tied_mass->times(accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate) - f;
+    NodalVector own =
+        parts_.tied_mass
+            ? parts_.tied_mass->times(accelerations(parts_, nodal_, f) + parts_.mass_damping * nodal_.u_rate)
+            : lumped_inertia_of_ties(f);
+    for (Eigen::Index i = 0; i < f.cols(); ++i)
+      if (ties.is_tied(static_cast<int>(i))) own.col(i) -= f.col(i);
+    // Nodes that follow tied nodes hand their forces on; a chain has at most as many links as there are ties.
+    NodalVector total = own;
+    for (std::size_t link = 1; link < parts_.ties.size(); ++link) {
+      NodalVector next = own;
+      for (const NamedTie& tie : parts_.ties)
+        for (const TiedNode& tied : tie.nodes)
+          for (const auto& [leader, weight] : tied.leaders)
+            if (ties.is_tied(leader)) next.col(leader) += weight * total.col(tied.node);
+      total = std::move(next);
+    }
+    return total;
   });
 }
 

@@ -47,12 +47,13 @@ class FemStateView : public StateView {
   // Reactions (N) at clamped and moved coordinates, zero elsewhere: M a + alpha M v - f with the forces f of all terms,
   // the accelerations a of all nodes and the mass-proportional damping alpha (1/s).
   const NodalVector& support_forces() const;
-  // The forces (N) of the leaders on tied nodes: M a + alpha M v - f; without inertia if the mass is lumped, because it
-  // is then at the leaders. Other nodes have values without meaning.
+  // The forces (N) of the leaders on tied nodes: M a + alpha M v - f, with the forces f on the nodes and on those that
+  // follow them. Zero for other nodes.
   const NodalVector& tie_forces() const;
 
  private:
   NodalVector forces() const;  // of terms and joints, N
+  NodalVector lumped_inertia_of_ties(const NodalVector& f) const;
   Vector free_velocity() const;
   const Vector& free_momentum() const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "lib/core/errors.h"
 
@@ -35,11 +36,12 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
 void Mass::move_to_leaders(const Ties& ties) {
   if (ties.empty()) return;
   Vector bounds = nodal_;
+  tied_ = Vector::Zero(nodal_.size());
   ties.move_bounds(bounds);
   for (const TiedNode& tied : ties.nodes()) {
     for (const auto& [leader, weight] : tied.leaders)
       nodal_[leader] += std::abs(weight) / tied.sum_of_magnitudes() * nodal_[tied.node];
-    nodal_[tied.node] = 0;
+    tied_[tied.node] = std::exchange(nodal_[tied.node], 0);
   }
   for (const TiedNode& tied : ties.nodes())
     for (const auto& [leader, weight] : tied.leaders)

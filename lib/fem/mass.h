@@ -33,6 +33,9 @@ class Mass {
   double total() const { return total_; }
   // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes, and for tied nodes if lumped.
   const Vector& nodal() const { return nodal_; }
+  // Lumped masses of tied nodes before they moved to the leaders, kg, and zero for other nodes; empty without ties or
+  // with a consistent mass.
+  const Vector& tied() const { return tied_; }
   // Row sums of the mass matrix over all nodes, kg: the nodal forces per unit of uniform acceleration. May be negative
   // for a consistent mass.
   const Vector& row_sums() const { return lumped() ? nodal_ : row_sums_; }
@@ -59,6 +62,7 @@ class Mass {
   Vector nodal_;
   double total_ = 0, frequency_excess_;
   Vector diagonal_;             // lumped
+  Vector tied_;                 // lumped
   Vector row_sums_;             // consistent
   std::vector<double> values_;  // consistent
 

@@ -213,14 +213,15 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   require_size(parts.mesh);
-  auto [ties, named_ties] = make_ties(scene.ties, parts.mesh, loaded.warnings);
-  parts.ties = std::move(named_ties);
-  if (ranks && !ties.empty()) scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
+  TiedSurfaces tied = make_ties(scene.ties, parts.mesh, loaded.warnings);
+  if (ranks && !tied.ties.empty())
+    scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
   const auto regions = assign_regions(scene, parts.mesh);
   warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
   ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
-  release_tied_nodes(scene.ties, ties, parts.mesh, supports);
+  release_tied_nodes(scene.ties, tied, parts.mesh, supports);
+  parts.ties = std::move(tied.named);
   require_free_coordinates(scene, supports.held);
   NodePairs pairs = couplings(scene, parts.mesh);
 
@@ -236,7 +237,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const Mesh& own = subdomain ? part : parts.mesh;
   const int num_nodes = static_cast<int>(own.nodes.size());
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes,
-                                        std::move(ties));
+                                        std::move(tied.ties));
   const bool symmetric = storage == MatrixStorage::by_elasticity &&
                          std::all_of(regions.begin(), regions.end(),
                                      [&](const Region* r) { return elasticity_of(scene, *r).has_symmetric_tangent(); });
@@ -259,6 +260,8 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
     if (scene.start == Start::equilibrium)
       joint.origin.fail("joints are not available with start: equilibrium; start at rest, and let loads rise slowly");
     if (subdomain) joint.origin.fail("joints are not available on several ranks; run on one");
+    for (const Joint& other : parts.joints)
+      if (other.name == joint.name) joint.origin.fail(fmt::format("name: '{}' is used twice among joints", joint.name));
     parts.joints.push_back(joint.on(parts.mesh));
   }
   auto added = add_elasticity(scene, std::move(elastic), elements, parts);

@@ -81,15 +81,60 @@ Mortar mortar_of(const TieInput& tie, const Mesh& mesh, Warnings& warnings) {
   return mortar;
 }
 
+// Moves tied nodes to their leaders, with a warning for each tie whose nodes move visibly.
+void move_tied_nodes(const std::vector<TieInput>& inputs, const TiedSurfaces& tied, Mesh& mesh, Warnings& warnings) {
+  constexpr double kTold = 1e-3;  // of the root of the mean area of the faces
+  const std::vector<Vec3> before = mesh.nodes;
+  move_to_leaders(mesh, tied.ties);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    double moved = 0;
+    for (const TiedNode& node : tied.named[k].nodes)
+      moved = std::max(moved, (mesh.node(node.node) - before[static_cast<std::size_t>(node.node)]).norm());
+    const auto& faces = mesh.surfaces.at(inputs[k].first);
+    if (moved > kTold * std::sqrt(surface_area(mesh, faces) / static_cast<double>(faces.size())))
+      warnings.push_back(
+          fmt::format("{}: the tied nodes were moved onto '{}', by up to {:.3g} m; make the surfaces meet, or refine "
+                      "them where they are curved",
+                      inputs[k].origin.where, inputs[k].second, moved));
+  }
+}
+
+// What holds each coordinate: nothing, a clamp, or one of the motions.
+class Holders {
+ public:
+  explicit Holders(const Supports& supports) {
+    for (const bool held : supports.held) holders_.push_back(held ? 1 : 0);
+    for (std::size_t k = 0; k < supports.moved.size(); ++k)
+      for (const int node : supports.moved[k].nodes)
+        for (std::size_t c = 0; c < 3; ++c)
+          if (supports.moved[k].components[c]) of(node, c) = static_cast<int>(k) + 2;
+  }
+
+  // Whether a held component of a tied node has leaders that are held in the same way, by the sum of their weights.
+  // Leaders beside a held edge have small weights, whose sum is near zero.
+  bool hold_alike(const TiedNode& tied, std::size_t c) const {
+    constexpr double kLeast = 0.75;
+    if (of(tied.node, c) == 0) return true;
+    double alike = 0;
+    for (const auto& [leader, weight] : tied.leaders)
+      if (of(leader, c) == of(tied.node, c)) alike += weight;
+    return alike >= kLeast;
+  }
+
+ private:
+  int& of(int node, std::size_t c) { return holders_[3 * static_cast<std::size_t>(node) + c]; }
+  int of(int node, std::size_t c) const { return holders_[3 * static_cast<std::size_t>(node) + c]; }
+
+  std::vector<int> holders_;
+};
+
 }  // namespace
 
 TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings) {
-  constexpr double kTold = 1e-3;  // of the root of the mean area of the faces
   if (inputs.empty()) return {};
   TiedSurfaces out;
   std::vector<TiedNode> nodes;
   std::map<int, const TieInput*> tied_by;
-  double size = 0;
   for (const TieInput& input : inputs) {
     NamedTie named{input.name.empty() ? fmt::format("tie_{}", out.named.size() + 1) : input.name, {}};
     for (const NamedTie& other : out.named)
@@ -101,40 +146,39 @@ TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings
             "the node of '{}' at {} m is tied already, as one of '{}'; make one tie to a surface that contains both "
             "second surfaces, or swap `first` and `second` of this tie",
             input.first, place_of(mesh, tied.node), other->second->first));
-      named.nodes.push_back(tied.node);
+      named.nodes.push_back(tied);
       nodes.push_back(std::move(tied));
     }
     out.named.push_back(std::move(named));
-    const auto& faces = find_surface(mesh, input.first, input.origin);
-    size = std::max(size, std::sqrt(surface_area(mesh, faces) / static_cast<double>(faces.size())));
   }
-  out.ties = Ties(static_cast<int>(mesh.nodes.size()), std::move(nodes));
-  const double moved = move_to_leaders(mesh, out.ties);
-  if (moved > kTold * size)
-    warnings.push_back(fmt::format(
-        "{}: the tied nodes were moved onto the second surfaces, by up to {:.3g} m; make the surfaces meet, "
-        "or refine them where they are curved",
-        inputs.front().origin.where, moved));
+  try {
+    out.ties = Ties(static_cast<int>(mesh.nodes.size()), std::move(nodes));
+  } catch (const ConfigError& e) {
+    inputs.back().origin.fail(e.what());
+  }
+  move_tied_nodes(inputs, out, mesh, warnings);
   return out;
 }
 
-void release_tied_nodes(const std::vector<TieInput>& inputs, const Ties& ties, const Mesh& mesh, Supports& supports) {
-  if (ties.empty()) return;
-  const auto is_held = [&](int node, std::size_t c) { return supports.held[3 * static_cast<std::size_t>(node) + c]; };
-  for (const TiedNode& tied : ties.nodes())
-    for (std::size_t c = 0; c < 3; ++c)
-      if (is_held(tied.node, c) && std::none_of(tied.leaders.begin(), tied.leaders.end(),
-                                                [&](const auto& leader) { return is_held(leader.first, c); }))
-        inputs.front().origin.fail(fmt::format(
-            "the node at {} m is tied, and its component {} is clamped or moved, but that of the surface that it "
-            "follows is not: clamp or move that surface, or swap `first` and `second` of the tie",
-            place_of(mesh, tied.node), "xyz"[c]));
-  for (const TiedNode& tied : ties.nodes())
-    for (std::size_t c = 0; c < 3; ++c) supports.held[3 * static_cast<std::size_t>(tied.node) + c] = true;
-  for (MovedNodes::Part& part : supports.moved) std::erase_if(part.nodes, [&](int node) { return ties.is_tied(node); });
+void release_tied_nodes(const std::vector<TieInput>& inputs, const TiedSurfaces& tied, const Mesh& mesh,
+                        Supports& supports) {
+  if (tied.ties.empty()) return;
+  const Holders holders(supports);
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    for (const TiedNode& node : tied.named[k].nodes)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (!holders.hold_alike(node, c))
+          inputs[k].origin.fail(fmt::format(
+              "the node of '{}' at {} m is tied, and its component {} is clamped or moved, but '{}' is not held in the "
+              "same way there: clamp or move that surface too, or swap `first` and `second` of the tie",
+              inputs[k].first, place_of(mesh, node.node), "xyz"[c], inputs[k].second));
+  for (const TiedNode& node : tied.ties.nodes())
+    for (std::size_t c = 0; c < 3; ++c) supports.held[3 * static_cast<std::size_t>(node.node) + c] = true;
+  for (MovedNodes::Part& part : supports.moved)
+    std::erase_if(part.nodes, [&](int node) { return tied.ties.is_tied(node); });
   for (Support& support : supports.named)
     for (std::size_t i = 0; i < support.nodes.size(); ++i)
-      if (ties.is_tied(support.nodes[i])) support.held[i] = {false, false, false};
+      if (tied.ties.is_tied(support.nodes[i])) support.held[i] = {false, false, false};
 }
 
 }  // namespace orthodyn

@@ -31,8 +31,9 @@ struct TiedSurfaces {
 // each other. Adds a warning if a part of a first surface has no counterpart, or if a node is moved visibly.
 TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings);
 
-// Tied nodes are held by their leaders: takes them out of the supports, and marks them as held. Throws ConfigError if
-// no leader of a clamped or moved node is held too.
-void release_tied_nodes(const std::vector<TieInput>& inputs, const Ties& ties, const Mesh& mesh, Supports& supports);
+// Tied nodes are held by their leaders: takes them out of the supports, and marks them as held. Throws ConfigError if a
+// clamped or moved node has leaders that are not held in the same way.
+void release_tied_nodes(const std::vector<TieInput>& inputs, const TiedSurfaces& tied, const Mesh& mesh,
+                        Supports& supports);
 
 }  // namespace orthodyn

@@ -187,6 +187,38 @@ TEST(Ties, MayFollowEachOther) {
   EXPECT_LE(s.force(s.dofs([&](const Vec3& X) { return Vec3(R * X - X); })).norm(), 1e-12);
 }
 
+// A chain of three blocks that stand on each other: each tie carries the weight of the blocks above it, with either
+// mass, at rest and in free fall.
+TEST(Ties, ForcesAreThoseThatTheyCarry) {
+  for (const char* mass : {"lumped", "consistent"}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    a: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1], elements: hexahedra}}}}
+    b: {{mesh: {{type: box, size: [1, 1, 1], cells: [3, 2, 1]}}, translation: [0, 0, 1]}}
+    c: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 3, 1], elements: hexahedra}}, translation: [0, 0, 2]}}
+materials: {{m: {{type: isotropic, density: 2, young: 1e4, nu: 0.3}}}}
+ties: [{{name: low, first: b.z0, second: a.z1}}, {{name: high, first: c.z0, second: b.z1}}]
+gravity: [0, 0, -10]
+clamps: [{{surface: a.z0}}]
+elasticity: {{kinematics: linear}}
+mass: {}
+time: {{end: 1}}
+)",
+                                       mass));
+    const Vector q = linear_static(s);
+    EXPECT_NEAR(s.model().evaluate("tie.low", {0, q, s.zero()})[2], 40, 1e-6) << mass;
+    EXPECT_NEAR(s.model().evaluate("tie.high", {0, q, s.zero()})[2], 20, 1e-6) << mass;
+  }
+  const BuiltTestScene chain(
+      "mesh: {type: bodies, bodies: {a: {mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1]}}, b: {mesh: {type: box, "
+      "size: [1, 1, 1], cells: [3, 2, 1]}, translation: [0, 0, 1]}}}\n"
+      "materials: {m: {type: isotropic, density: 2, young: 1e4, nu: 0.3}}\n"
+      "ties: [{first: a.z1, second: b.z0}]\ngravity: [0, 0, -10]\ntime: {end: 1}\n");
+  EXPECT_LE(std::abs(chain.model().evaluate("tie.tie_1", {0, chain.zero(), chain.zero()})[2]), 1e-10);  // free fall
+}
+
 TEST(Ties, AreTheSameWithAnyNumberOfThreads) {
   const std::string yaml = blocks("cells: [12, 12, 6], order: 1", "cells: [11, 11, 6], order: 1");
   const BuiltTestScene s(yaml);
@@ -258,6 +290,8 @@ TEST(Ties, AreRefusedWithTheReason) {
   EXPECT_THAT(message(tie + ", " + tie), HasSubstr("tied already"));
   EXPECT_THAT(message(tie + ", {first: lower.z1, second: upper.z0}"), HasSubstr("in a circle"));
   EXPECT_THAT(message(tie, "clamps: [{surface: upper.z0}]"), HasSubstr("is clamped or moved"));
+  EXPECT_THAT(message(tie, "motions: [{surface: upper.z0, displacement: [t, 0, 0]}]\nclamps: [{surface: lower.z1}]"),
+              HasSubstr("is clamped or moved"));
 }
 
 }  // namespace

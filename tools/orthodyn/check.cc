@@ -140,13 +140,25 @@ void print_harmonic(const Setup& setup) {
 
 void print_supports(const FemModel& model) {
   const auto& parts = model.parts();
-  const auto coordinates = 3 * parts.mesh.nodes.size();
+  const auto coordinates = 3 * (parts.mesh.nodes.size() - parts.dofs->ties().nodes().size());
   const auto moved = parts.moved ? parts.moved->num_coordinates() : 0;
   const auto held = coordinates - static_cast<std::size_t>(model.num_dofs()) - moved;
   fmt::print("clamps\n");
   if (held == 0) fmt::print("  none{}\n", moved > 0 ? "" : ": the body is free");
   else fmt::print("  {} of {} coordinates are held\n", held, coordinates);
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
+}
+
+void print_connections(const FemModel& model) {
+  const auto& parts = model.parts();
+  if (!parts.ties.empty()) fmt::print("ties\n");
+  for (const NamedTie& tie : parts.ties) fmt::print("  {}: {} tied nodes\n", tie.name, tie.nodes.size());
+  if (!parts.joints.empty()) fmt::print("joints\n");
+  for (const Joint& joint : parts.joints) {
+    int constraints = 0;
+    for (const JointEquation& equation : joint.equations) constraints += equation.size();
+    fmt::print("  {}: {}\n", joint.name, counted(constraints, "constraint"));
+  }
 }
 
 // Prints the axes of each region: "cylindrical, varies with position".
@@ -182,6 +194,7 @@ int check(const CheckArguments& arguments) {
   print_materials(setup.scene, setup.built.model->traits().linear);
   print_axes(setup);
   print_supports(model);
+  print_connections(model);
   fmt::print("terms\n");
   for (const std::string& description : term_descriptions(parts)) fmt::print("  {}\n", description);
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);

@@ -13,6 +13,7 @@
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/penalty.h"
 #include "lib/fem/term_choice.h"
+#include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/selection.h"
 
 namespace orthodyn {
@@ -173,17 +174,14 @@ class BodyContact : public Term {
   const BlockPattern& pattern_;
 };
 
-// The outer faces of the body whose nodes all belong to a region.
+// The outer faces of the cells of a region.
 std::vector<FaceCorners> outer_faces(const Mesh& mesh, int region) {
-  std::vector<char> is_inside(mesh.nodes.size(), 0);
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    if (mesh.region_of[cell] == region)
-      for (const int node : mesh.cells[cell]) is_inside[static_cast<std::size_t>(node)] = 1;
-  std::vector<FaceCorners> faces = boundary_faces(mesh);
-  std::erase_if(faces, [&](const FaceCorners& face) {
-    return !std::all_of(face.begin(), face.end(), [&](int node) { return is_inside[static_cast<std::size_t>(node)]; });
-  });
-  return faces;
+  const std::vector<MeshFace> all = sorted_faces(mesh);
+  std::vector<FaceCorners> out;
+  for (std::size_t k = 0; k < all.size(); k = end_of_face(all, k))
+    if (end_of_face(all, k) == k + 1 && mesh.region_of[static_cast<std::size_t>(all[k].cell)] == region)
+      out.push_back(all[k].outward());
+  return out;
 }
 
 class BodyContactChoice : public TermChoice {

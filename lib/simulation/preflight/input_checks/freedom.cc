@@ -135,6 +135,24 @@ void check_ground(const CheckContext& context, Warnings& out) {
   }
 }
 
+// Bodies that overlap at the start, by the depth that the contact force of one node stands for.
+void check_overlap(const CheckContext& context, Warnings& out) {
+  constexpr double kDeep = 1e-3;  // of the extent
+  if (context.is_static()) return;
+  const FemModel::Parts& parts = context.built.model->parts();
+  const NodalExpansion nodal = expansion_at(context, context.start());
+  for (const auto& term : parts.loads) {
+    if (!term->name().starts_with("contact of")) continue;
+    NodalVector f = NodalVector::Zero(3, nodal.x.cols());
+    term->add_force(nodal.state(), f);
+    const double depth = std::sqrt(f.colwise().squaredNorm().maxCoeff()) / term->contact_stiffness();
+    if (depth > kDeep * context.extent)
+      warn(out, "terms",
+           "the {}: they overlap at the start, {:.2g} m deep or more, and are thrown apart: move the bodies",
+           term->name(), depth);
+  }
+}
+
 }  // namespace
 
 bool is_free(const CheckContext& context) {
@@ -150,6 +168,7 @@ bool is_free(const CheckContext& context) {
 void check_freedom(const CheckContext& context, Warnings& out) {
   check_drift(context, out);
   check_ground(context, out);
+  check_overlap(context, out);
 }
 
 }  // namespace orthodyn::input_checks
