@@ -171,6 +171,14 @@ TEST(Ties, LumpedMassesMoveToTheLeaders) {
   EXPECT_LE(s.model().frequency_bound(), 3 * highest);
 }
 
+TEST(Ties, ReplaceLeadersThatAreTied) {
+  const Ties ties(4, {{0, {{1, 0.5}, {2, 0.5}}}, {1, {{3, 2}, {2, -1}}}});
+  std::map<int, double> leaders;
+  ties.for_each_leader(0, [&](int node, double weight) { leaders[node] = weight; });
+  EXPECT_EQ(leaders, (std::map<int, double>{{2, 0}, {3, 1}}));
+  EXPECT_THROW(Ties(3, {{0, {{1, 1}}}, {1, {{2, 0.5}, {0, 0.5}}}}), ConfigError);
+}
+
 // Three blocks in a row, of which the middle one follows the first, and the last one the middle one.
 TEST(Ties, MayFollowEachOther) {
   const std::string box = "{type: box, size: [1, 1, 1], order: 1, cells: ";
@@ -187,8 +195,8 @@ TEST(Ties, MayFollowEachOther) {
   EXPECT_LE(s.force(s.dofs([&](const Vec3& X) { return Vec3(R * X - X); })).norm(), 1e-12);
 }
 
-// A chain of three blocks that stand on each other: each tie carries the weight of the blocks above it, with either
-// mass, at rest and in free fall.
+// Block b hangs on the side of block a, which stands on block c. At the common edge, b follows nodes of a that follow
+// c. Each tie carries the weight of the blocks beyond it, with either mass; in free fall it carries nothing.
 TEST(Ties, ForcesAreThoseThatTheyCarry) {
   for (const char* mass : {"lumped", "consistent"}) {
     const BuiltTestScene s(fmt::format(R"(
@@ -196,20 +204,20 @@ mesh:
   type: bodies
   bodies:
     a: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1], elements: hexahedra}}}}
-    b: {{mesh: {{type: box, size: [1, 1, 1], cells: [3, 2, 1]}}, translation: [0, 0, 1]}}
-    c: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 3, 1], elements: hexahedra}}, translation: [0, 0, 2]}}
+    b: {{mesh: {{type: box, size: [1, 1, 1], cells: [1, 3, 2]}}, translation: [1, 0, 0]}}
+    c: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 3, 1], elements: hexahedra}}, translation: [0, 0, -1]}}
 materials: {{m: {{type: isotropic, density: 2, young: 1e4, nu: 0.3}}}}
-ties: [{{name: low, first: b.z0, second: a.z1}}, {{name: high, first: c.z0, second: b.z1}}]
+ties: [{{name: side, first: b.x0, second: a.x1}}, {{name: foot, first: a.z0, second: c.z1}}]
 gravity: [0, 0, -10]
-clamps: [{{surface: a.z0}}]
+clamps: [{{surface: c.z0}}]
 elasticity: {{kinematics: linear}}
 mass: {}
 time: {{end: 1}}
 )",
                                        mass));
     const Vector q = linear_static(s);
-    EXPECT_NEAR(s.model().evaluate("tie.low", {0, q, s.zero()})[2], 40, 1e-6) << mass;
-    EXPECT_NEAR(s.model().evaluate("tie.high", {0, q, s.zero()})[2], 20, 1e-6) << mass;
+    EXPECT_NEAR(s.model().evaluate("tie.foot", {0, q, s.zero()})[2], 40, 1e-6) << mass;
+    EXPECT_NEAR(s.model().evaluate("tie.side", {0, q, s.zero()})[2], 20, 1e-6) << mass;
   }
   const BuiltTestScene chain(
       "mesh: {type: bodies, bodies: {a: {mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1]}}, b: {mesh: {type: box, "
