@@ -128,17 +128,18 @@ Polygon common_part(Polygon subject, const Polygon& clip) {
 // The natural coordinates of the point of a face over a point of the plane; empty if Newton's method does not converge.
 std::optional<Vec2> place_on(const TieFace& face, const Plane& plane, const Vec2& point) {
   constexpr int kMostIterations = 30;
-  Vec2 place = face.centre();
+  constexpr double kRoundOff = 1e-14, kConverged = 1e-10;
+  Vec2 place = face.centre(), change = Vec2::Ones();
   for (int k = 0; k < kMostIterations; ++k) {
     const ShapeValues at = face.shape(place);
     const Eigen::Matrix2d slopes = plane.axes.transpose() * face.X * at.slopes;
-    const Vec2 change = slopes.inverse() * (point - plane.project(face.X * at.N));
+    change = slopes.inverse() * (point - plane.project(face.X * at.N));
     if (!change.allFinite()) return std::nullopt;
     place += change;
-    if (change.norm() < 1e-14) return place;
+    if (change.norm() < kRoundOff) return place;
     if (place.norm() > 10) return std::nullopt;
   }
-  return place;
+  return change.norm() < kConverged ? std::optional(place) : std::nullopt;
 }
 
 // Faces of the second surface near a box, found by their places along the longest axis of the surface.
