@@ -216,7 +216,8 @@ time: {{end: 1}}
 )",
                                        mass));
     const Vector q = linear_static(s);
-    EXPECT_NEAR(s.model().evaluate("tie.foot", {0, q, s.zero()})[2], 40, 1e-6) << mass;
+    EXPECT_NEAR(s.model().evaluate("tie.foot", {0, q, s.zero()})[2], 40, mass == std::string("lumped") ? 2 : 1e-6)
+        << mass;  // lumped masses of b at the edge go to c, past the foot
     EXPECT_NEAR(s.model().evaluate("tie.side", {0, q, s.zero()})[2], 20, 1e-6) << mass;
   }
   const BuiltTestScene chain(
