@@ -26,7 +26,7 @@ struct TieFace {
   Eigen::Matrix3Xd X;  // m
   std::size_t corners = 0;
   ShapeValues (*shape)(const Vec2& place) = nullptr;
-  bool has_hats = false;  // corner functions with integrals that are not positive, see hats()
+  bool is_transformed = false;  // corner functions with integrals that are not positive, see transformation()
   Vec3 normal = Vec3::Zero(), low = Vec3::Zero(), high = Vec3::Zero();
   double area = 0;  // m^2
 
@@ -49,7 +49,7 @@ std::vector<TieFace> tie_faces(const Mesh& mesh, const std::vector<FaceCorners>&
     face.X = X;
     face.corners = F::kNodes == 3 || F::kNodes == 6 ? 3 : 4;
     face.shape = shape_of<F>;
-    face.has_hats = F::kNodes == 6 || F::kNodes == 8;
+    face.is_transformed = F::kNodes == 6 || F::kNodes == 8;
     face.area = area<F>(X);
     Vec3 normal = Vec3::Zero();
     for (const auto& [place, weight] : F::points()) normal += weight * normal_at<F>(X, place);
@@ -63,13 +63,13 @@ std::vector<TieFace> tie_faces(const Mesh& mesh, const std::vector<FaceCorners>&
 
 // The integrals of the corner functions of Tri6 and Quad8 are not positive, as the mortar method needs. These functions
 // have positive integrals: N_c + sum N_m / 5 over the edges at a corner, and 3/5 N_m at the middle of an edge. A field
-// with their coefficients has the nodal values hats() times the coefficients.
+// with their coefficients has the nodal values transformation() times the coefficients.
 constexpr double kShift = 0.2;
 
-Eigen::MatrixXd hats(const TieFace& face) {
+Eigen::MatrixXd transformation(const TieFace& face) {
   const auto n = static_cast<Eigen::Index>(face.nodes.size()), corners = static_cast<Eigen::Index>(face.corners);
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n);
-  if (!face.has_hats) return T;
+  if (!face.is_transformed) return T;
   for (Eigen::Index c = 0; c < corners; ++c) {
     const Eigen::Index middle = corners + c;
     T(middle, middle) = 1 - 2 * kShift;
@@ -187,7 +187,7 @@ class MortarSums {
     const Polygon own = polygon(face, plane);
     const double reach = reach_.value_or(kReach * face.size());
     const auto n = static_cast<Eigen::Index>(face.nodes.size());
-    const Eigen::MatrixXd to_values = hats(face);
+    const Eigen::MatrixXd to_values = transformation(face);
     std::vector<Sample> samples;
     double covered = 0;
     near_.visit(face.low.array() - reach, face.high.array() + reach, [&](const TieFace& other) {
@@ -290,7 +290,7 @@ class MortarSums {
   }
 
   void remember_edges(const TieFace& face) {
-    if (!face.has_hats) return;
+    if (!face.is_transformed) return;
     for (std::size_t c = 0; c < face.corners; ++c)
       ends_[face.nodes[face.corners + c]] = {face.nodes[c], face.nodes[(c + 1) % face.corners]};
   }

@@ -1,4 +1,6 @@
 // Tied nodes: they have no unknowns, and follow other nodes, their leaders: u_s = sum_i w_i u_i.
+// (Multipoint constraints; of two tied surfaces, tied nodes are those of the slave or non-mortar side, leaders those of
+// the master or mortar side.)
 //
 // With u = T q for the displacements u of all nodes and the unknowns q, the forces on the unknowns are T^T f, and the
 // matrices T^T K T. They stay symmetric and definite, so that nothing else in the program has to know ties.
