@@ -106,7 +106,8 @@ TEST_P(TiesOf, ForceAndTangentAreDerivatives) {
   expect_derivative([&](double h) { return s.force(q, h * d); }, -s.matrix({0, 1, 0}, q, s.zero()) * d);
 }
 
-// The consistent mass is T^T M T: its kinetic energy is that of the bodies with the velocities of all nodes.
+// The consistent mass is T^T M T: its kinetic energy equals the kinetic energy of the separate bodies, whose nodes have
+// the velocities T v.
 TEST_P(TiesOf, MassHasTheKineticEnergyOfBothBodies) {
   const BuiltTestScene tied(scene("mass: consistent"));
   const BuiltTestScene apart(blocks(GetParam().lower, GetParam().upper, "mass: consistent", ""));

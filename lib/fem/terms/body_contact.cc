@@ -56,7 +56,7 @@ class BodyContact : public Term {
     });
   }
 
-  // Gauss-Newton: without the second derivative of the distance.
+  // TangentKind::gauss_newton leaves out the second derivative of the distance.
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
     for_each_touch(s.x, [&](const Touch& touch, double k) {
       const double d = touch.distance.r;
@@ -95,8 +95,9 @@ class BodyContact : public Term {
     return sum;
   }
 
-  // A touch has the stiffness k A / 2 along a vector whose entries have the sum of magnitudes 2; corners of triangles
-  // are pressed by the nodes near them, whose area is that of the triangles at the corner or that of one node.
+  // An estimate. A node in contact has the row sum 2 k A/2, with its area A. The corner of a triangle has the row sums
+  // of the nodes that press on the triangles at the corner: their area is at most about six times the area of the
+  // corner, or the largest area of one node.
   void add_stiffness_bound(Vector& row_sums) const override {
     for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
       double largest = 0;

@@ -1,8 +1,8 @@
-// The tie of two surfaces whose meshes need not match, by the mortar method with dual multipliers: the displacement of
-// the first surface is the projection of that of the second one. The projection reproduces linear fields, so that
-// constant stresses pass through plane surfaces exactly (patch test).
-// Sources: Wohlmuth, SIAM J. Numer. Anal. 38, 2000 (dual multipliers); Puso, IJNME 59, 2004 (surfaces in space);
-// Popp, Wohlmuth, Gee & Wall, SIAM J. Sci. Comput. 34, 2012 (quadratic faces).
+// The tie of two surfaces whose meshes need not match, by the mortar method with dual multipliers. The displacement
+// of the first surface is the projection of the displacement of the second one. The projection reproduces linear
+// fields: constant stresses pass exactly through plane surfaces whose faces have straight edges (patch test). Sources:
+// Wohlmuth, SIAM J. Numer. Anal. 38, 2000 (dual multipliers); Puso, IJNME 59, 2004 (surfaces in space); Popp, Wohlmuth,
+// Gee & Wall, SIAM J. Sci. Comput. 34, 2012 (quadratic faces).
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // Tied nodes: they have no unknowns, and follow other nodes, their leaders: u_s = sum_i w_i u_i.
-// (Multipoint constraints; of two tied surfaces, tied nodes are those of the slave or non-mortar side, leaders those of
-// the master or mortar side.)
+// Ties are multipoint constraints. Where two surfaces are tied, the tied nodes belong to the slave (non-mortar) side,
+// and the leaders to the master (mortar) side.
 //
 // With u = T q for the displacements u of all nodes and the unknowns q, the forces on the unknowns are T^T f, and the
 // matrices T^T K T. They stay symmetric and definite, so that nothing else in the program has to know ties.
@@ -39,7 +39,7 @@ class Ties {
     for (const auto& [leader, weight] : tied(node).leaders) visit(leader, weight);
   }
 
-  // Sets the values of tied nodes from those of their leaders.
+  // Sets the displacement of each tied node to the weighted sum of the displacements of its leaders.
   void place(NodalVector& u) const;
   // Moves the forces on tied nodes to their leaders.
   void gather(NodalVector& forces) const;
