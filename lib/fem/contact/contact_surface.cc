@@ -85,7 +85,7 @@ PlacedSurface::PlacedSurface(const ContactSurface& surface, const NodalVector& x
   (high_ - low_).maxCoeff(&axis_);
   order_.reserve(surface.triangles().size());
   for (int k = 0; k < static_cast<int>(surface.triangles().size()); ++k) {
-    const auto along = corners(k).row(axis_);
+    const Eigen::RowVector3d along = corners(k).row(axis_);
     order_.push_back({along.minCoeff(), k});
     widest_ = std::max(widest_, along.maxCoeff() - along.minCoeff());
   }
