@@ -39,8 +39,8 @@ const DiscreteGradient& gradient_of(const Model& model) {
   if (!gradient)
     throw ConfigError(
         "energy_momentum needs a force that is the gradient of an energy. The warped force is not (use "
-        "elasticity.corotation: exact), nor is the force of moved nodes with a consistent mass (use mass: lumped). Or "
-        "choose another integrator");
+        "elasticity.corotation: exact), nor is the force of moved nodes with a consistent mass (use mass: lumped). "
+        "Contact of bodies has no mean force between two states. Or choose another integrator");
   return *gradient;
 }
 

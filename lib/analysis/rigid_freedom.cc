@@ -59,7 +59,7 @@ std::vector<double> clamped_coordinates(const FemModel& model) {
   const DofMap& dofs = *model.parts().dofs;
   std::vector<double> here;
   for (int i = 0; i < dofs.num_nodes(); ++i)
-    for (const int dof : dofs.node(i)) here.push_back(dof < 0 && !dofs.ties().is_tied(i) ? 1 : 0);
+    for (int k = 0; k < 3; ++k) here.push_back(dofs.is_held(i, k) ? 1 : 0);
   const Subdomain* subdomain = model.parts().subdomain.get();
   return subdomain ? subdomain->whole_field(here, 3) : here;
 }

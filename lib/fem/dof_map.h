@@ -29,6 +29,10 @@ class DofMap {
 
   // Indices of a node's unknowns: consecutive, except -1 for clamped coordinates and for tied nodes.
   const std::array<int, 3>& node(int i) const { return dof_[static_cast<std::size_t>(i)]; }
+  // Whether a clamp or a motion holds this coordinate. Tied nodes are not held.
+  bool is_held(int i, int component) const {
+    return node(i)[static_cast<std::size_t>(component)] < 0 && !ties_.is_tied(i);
+  }
 
   // Displacements, velocities and accelerations. add_to(): adds those of the free coordinates, and of the nodes tied to
   // them, to `out`, at the rank's own nodes. restrict_to(): sets `dofs` to the free coordinates of `nodal`.

@@ -37,8 +37,10 @@ FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
   constraints_ = make_joint_constraints(parts_);
   if (parts_.subdomain || internal_) return;
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
+  const auto has_mean_force = [](const auto& term) { return term->has_mean_force(); };
   const bool pulled = supports_pull(parts_);  // the pull is a force without energy
-  if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
+  if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy) &&
+      std::all_of(parts_.loads.begin(), parts_.loads.end(), has_mean_force))
     mean_force_ = make_mean_force(parts_);
 }
 

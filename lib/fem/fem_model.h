@@ -15,6 +15,7 @@
 #include "lib/fem/joints.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/motion/moved_nodes.h"
+#include "lib/fem/rigid_body.h"
 #include "lib/fem/stress_recovery.h"
 #include "lib/fem/subdomain.h"
 #include "lib/fem/term.h"
@@ -60,7 +61,8 @@ class FemModel : public Model {
     std::unique_ptr<MovedNodes> moved;                  // null without motions
     std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks; null with one rank
     std::vector<Support> supports;                      // supports whose reactions are outputs
-    std::vector<Joint> joints = {};
+    std::vector<Joint> joints = {};                     // distances within rigid bodies included
+    std::vector<RigidBody> rigid_bodies = {};
     std::vector<NamedTie> ties = {};
     std::unique_ptr<TiedMass> tied_mass = {};   // null without ties or with a lumped mass
     std::unique_ptr<SupportMass> support_mass;  // null without motions and supports

@@ -334,11 +334,12 @@ std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties) {
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
   std::vector<FemOutput> out;
   for (const Joint& joint : joints)
-    out.push_back(
-        {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
-         [&joint](const View& view) {
-           return flat(joint_force(view.parts(), joint, view.nodal().u, view.multipliers()));
-         }});
+    if (joint.of == Joint::Of::bodies)
+      out.push_back(
+          {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
+           [&joint](const View& view) {
+             return flat(joint_force(view.parts(), joint, view.nodal().u, view.multipliers()));
+           }});
   if (joints.empty()) return out;
   const auto largest = [](const View& view, bool of_rates) {
     const auto constraints = make_joint_constraints(view.parts());

@@ -101,7 +101,7 @@ class JointConstraints final : public Constraints {
     for (const Joint& joint : parts_.joints)
       for (const JointEquation& equation : joint.equations) {
         if (constraint < first + equation.size())
-          return fmt::format("joint {}, {}", joint.name,
+          return fmt::format("{} {}, {}", joint.of == Joint::Of::bodies ? "joint" : "rigid body", joint.name,
                              equation.kind == JointEquation::Kind::coincide ? std::string(1, "xyz"[constraint - first])
                              : equation.kind == JointEquation::Kind::distance ? "distance"
                                                                               : "line");
@@ -234,7 +234,10 @@ double start_consistently(const FemModel& model, State& state) {
     if (!std::isfinite(scale[k])) fail(k, "holds nothing that can move: all its nodes are clamped or moved");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
   if (eigen.eigenvalues()[0] < kDependent) {
-    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+    Vector share = eigen.eigenvectors().col(0).cwiseAbs();
+    for (Eigen::Index k = 0; k < m; ++k)  // joints are what a user can remove
+      if (joint_of(model.parts(), static_cast<int>(k)).of == Joint::Of::rigid_body) share[k] = 0;
+    share.maxCoeff(&worst);
     fail(worst, "is already held by the other joints and clamps: remove one of them");
   }
   const Vector before = state.v;

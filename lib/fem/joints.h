@@ -44,9 +44,12 @@ struct JointEquation {
 };
 
 struct Joint {
+  enum class Of { bodies, rigid_body };  // joint of two bodies, or distances within a rigid body (rigid_body.h)
+
   std::string name;
   std::string place;  // in the input, for messages
   std::vector<JointEquation> equations;
+  Of of = Of::bodies;
 };
 
 class FemModel;

@@ -56,6 +56,9 @@ class Term {
   // Equivalent duration (s): the impulse from `start` to `end` divided by the peak force.
   virtual double seconds_at_peak(double start, double end) const { return end - start; }
 
+  // False for forces of an energy without a mean force.
+  virtual bool has_mean_force() const { return true; }
+
   // Adds the mean force between two states (DiscreteGradient in lib/ode/model.h). Default: the static force at the
   // midpoint, exact for energies that are at most quadratic.
   virtual void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {

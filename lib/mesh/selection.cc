@@ -33,11 +33,12 @@ const Spec<PlaneSelection>& PlaneSelection::spec() {
 }
 
 int Selection::count() const {
-  return surface.has_value() + box.has_value() + plane.has_value() + nearest.has_value() + nodes.has_value();
+  return surface.has_value() + box.has_value() + plane.has_value() + nearest.has_value() + nodes.has_value() +
+         region.has_value();
 }
 
 void Selection::check(const Config& config) const {
-  if (count() != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes");
+  if (count() != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes, region");
 }
 
 namespace {
@@ -65,7 +66,20 @@ std::set<int> node_set(const Mesh& mesh, const std::string& name, const SourceLo
   fail_unknown(origin, "node set", name, mesh.node_sets, "a .bou file, *NSET, physical points");
 }
 
+std::set<int> nodes_of_region(const Mesh& mesh, const std::string& name, const SourceLocation& origin) {
+  const auto found = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
+  if (found == mesh.region_names.end())
+    origin.fail(fmt::format("the mesh has no region '{}'{} It has {}", name, did_you_mean(name, mesh.region_names, "."),
+                            join(mesh.region_names)));
+  std::set<int> out;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    if (mesh.region_of[cell] == found - mesh.region_names.begin())
+      out.insert(mesh.cells[cell].begin(), mesh.cells[cell].end());
+  return out;
+}
+
 std::set<int> select(const Selection& selection, const Mesh& mesh) {
+  if (selection.region) return nodes_of_region(mesh, *selection.region, selection.origin);
   if (selection.nodes) return node_set(mesh, *selection.nodes, selection.origin);
   if (selection.nearest) return {nearest_node(mesh, *selection.nearest)};
   if (selection.surface) {

@@ -22,13 +22,14 @@ struct PlaneSelection {
   static const Spec<PlaneSelection>& spec();
 };
 
-// A set of nodes, given by exactly one of five keys.
+// A set of nodes, given by exactly one of six keys.
 struct Selection {
   std::optional<std::string> surface;
   std::optional<BoxSelection> box;
   std::optional<PlaneSelection> plane;
   std::optional<Vec3> nearest;
   std::optional<std::string> nodes;  // a node set of the mesh
+  std::optional<std::string> region;
   SourceLocation origin;
 
   int count() const;
@@ -44,7 +45,8 @@ Spec<T> selection_spec() {
       .key("box", &T::box, "All nodes in a box (min, max).")
       .key("plane", &T::plane, "All nodes on a plane (point, normal, tolerance).")
       .key("nearest", &T::nearest, "The node nearest to a point.", {.unit = "m"})
-      .key("nodes", &T::nodes, "A named node set of the mesh.");
+      .key("nodes", &T::nodes, "A named node set of the mesh.")
+      .key("region", &T::region, "All nodes of a region of the mesh.");
 }
 
 // Ascending node indices. Throws ConfigError if no node is selected.

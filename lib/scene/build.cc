@@ -9,6 +9,7 @@
 #include "lib/scene/added_laws.h"
 #include "lib/scene/elastic_parts.h"
 #include "lib/scene/mesh_materials.h"
+#include "lib/scene/rigid_regions.h"
 #include "lib/scene/supports.h"
 
 namespace orthodyn {
@@ -194,6 +195,18 @@ NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
   return here;
 }
 
+// Rigid regions do not deform.
+std::vector<const Region*> deformable_of(std::vector<const Region*> regions) {
+  std::erase_if(regions, [](const Region* region) { return region->rigid; });
+  return regions;
+}
+
+void require_no_ties(const Scene& scene, const std::vector<RigidBody>& rigid) {
+  if (!scene.ties.empty()) scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
+  if (!rigid.empty())
+    throw ConfigError(rigid.front().place, "rigid regions are not available on several ranks; run on one");
+}
+
 // Makes the initial velocities fit the joints.
 void fit_joints(const Scene& scene, BuiltScene& built) {
   constexpr double kTold = 1e-6;  // relative to the largest velocity
@@ -204,7 +217,7 @@ void fit_joints(const Scene& scene, BuiltScene& built) {
         fmt::format("{}: the joints forbid the initial velocities; the run starts with the nearest ones that they "
                     "allow, which differ by "
                     "up to {:.3g} m/s",
-                    scene.initial ? scene.initial->origin.where : scene.joints.front().origin.where, changed));
+                    scene.initial ? scene.initial->origin.where : built.model->parts().joints.front().place, changed));
 }
 
 BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
@@ -213,13 +226,16 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   require_size(parts.mesh);
-  TiedSurfaces tied = make_ties(scene.ties, parts.mesh, loaded.warnings);
-  if (ranks && !tied.ties.empty())
-    scene.ties.front().origin.fail("ties are not available on several ranks; run on one");
   const auto regions = assign_regions(scene, parts.mesh);
-  warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
+  const auto deformable = deformable_of(regions);
+  parts.rigid_bodies = rigid_bodies(regions, parts.mesh);
+  TiedSurfaces tied = make_ties(scene.ties, parts.rigid_bodies, parts.mesh, loaded.warnings);
+  if (ranks) require_no_ties(scene, parts.rigid_bodies);
+  warn_of_unused_axes(scene, deformable, loaded.cell_data, loaded.warnings);
   ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
+  hold_rigid_bodies(scene, parts.mesh, parts.rigid_bodies, supports);
+  require_dynamic(scene, parts.rigid_bodies);
   release_tied_nodes(scene.ties, tied, parts.mesh, supports);
   parts.ties = std::move(tied.named);
   require_free_coordinates(scene, supports.held);
@@ -239,7 +255,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes,
                                         std::move(tied.ties));
   const bool symmetric = storage == MatrixStorage::by_elasticity &&
-                         std::all_of(regions.begin(), regions.end(),
+                         std::all_of(deformable.begin(), deformable.end(),
                                      [&](const Region* r) { return elasticity_of(scene, *r).has_symmetric_tangent(); });
   const ElementMesh elements(own, &parts.dofs->ties());
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
@@ -253,17 +269,19 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.rest = std::make_unique<NodalVector>(positions(own));
   add_supports(std::move(supports), elements, density, rest, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
-  parts.traits = traits_of(scene, regions);
+  parts.traits = traits_of(scene, deformable);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
-  if (subdomain) require_no_internal_variables(scene, regions);
+  if (subdomain) require_no_internal_variables(scene, deformable);
   for (const JointInput& joint : scene.joints) {
     if (scene.start == Start::equilibrium)
       joint.origin.fail("joints are not available with start: equilibrium; start at rest, and let loads rise slowly");
     if (subdomain) joint.origin.fail("joints are not available on several ranks; run on one");
     for (const Joint& other : parts.joints)
       if (other.name == joint.name) joint.origin.fail(fmt::format("name: '{}' is used twice among joints", joint.name));
-    parts.joints.push_back(joint.on(parts.mesh));
+    parts.joints.push_back(joint.on(parts.mesh, parts.rigid_bodies));
   }
+  for (const RigidBody& body : parts.rigid_bodies)
+    if (!body.is_held) parts.joints.push_back(body.rigidity(parts.mesh));
   auto added = add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
   for (auto& term : added) {

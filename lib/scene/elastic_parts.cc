@@ -286,6 +286,7 @@ std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, Elast
   const ElementMesh elements(parts.mesh);
   for (ElasticPart& part : elastic.parts) {
     const Region& entry = *part.entry;
+    if (entry.rigid) continue;
     const auto all = static_cast<int>(part.cells.size());
     CellsOfRank cells = cells_of_rank(own, parts.subdomain.get(), part.cells);
     const ElementAxes axes = cells.here.empty() ? ElementAxes(Mat3::Identity())

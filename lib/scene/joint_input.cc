@@ -51,9 +51,11 @@ const Spec<JointInput>& JointInput::spec() {
   return s;
 }
 
-Joint JointInput::on(const Mesh& mesh) const {
+Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid) const {
   const auto held = [&](const JointEnd& end, const Vec3& point) {
     const std::vector<int> nodes = selected_nodes(end, mesh);
+    for (const RigidBody& body : rigid)
+      if (body.contains(nodes)) return body.point(mesh, point);
     JointPoint found = joint_point(mesh, nodes, point);
     if (found.weights.empty())
       end.origin.fail(fmt::format(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/fem/joints.h"
+#include "lib/fem/rigid_body.h"
 #include "lib/mesh/selection.h"
 
 namespace orthodyn {
@@ -42,8 +43,8 @@ struct JointInput {
   SourceLocation origin;
   static const Spec<JointInput>& spec();
 
-  // Throws ConfigError if a point cannot be held by the selected nodes.
-  Joint on(const Mesh& mesh) const;
+  // Nodes of a rigid body hold any point. Throws ConfigError if a point cannot be held by the selected nodes.
+  Joint on(const Mesh& mesh, const std::vector<RigidBody>& rigid) const;
 };
 
 }  // namespace orthodyn

@@ -52,6 +52,9 @@ const Spec<Region>& Region::spec() {
           .key("law", &Region::law,
                "corotational: linear in the strain of the turned material. neo_hookean: for isotropic "
                "materials at large strain, such as rubber; its energy keeps elements from inverting.")
+          .key("rigid", &Region::rigid,
+               "The region moves as a rigid body, which has no stresses; its material gives the density. Rigid regions "
+               "that share nodes are one body.")
           .key("integration", &Region::integration,
                "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
                "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "
@@ -66,6 +69,9 @@ const Spec<Region>& Region::spec() {
                "Factors of the stiffness on a grid over the region, for bodies that are softer in "
                "places. They can be found by a fit.")
           .check([](const Region& region, const Config& config) {
+            for (const char* key :
+                 {"stiffness_damping", "kinematics", "law", "integration", "formulation", "stiffness_factors", "axes"})
+              if (region.rigid && config.has(key)) config.at(key).fail("has no effect in a rigid region; remove it");
             if (region.stiffness_factors && !region.layup.empty())
               config.at("stiffness_factors").fail("is not available for a region with a layup");
             if (region.law == ElasticLaw::neo_hookean && region.kinematics)
@@ -113,12 +119,26 @@ void check_kinematics(const Config& config, const Scene& scene) {
   }
 }
 
+// Lumped masses change the inertia of a rigid body.
+void choose_mass(const Config& config, Scene& scene) {
+  for (const auto& [name, region] : scene.regions) {
+    if (!region.rigid) continue;
+    if (config.has("mass") && scene.mass == MassKind::lumped)
+      config.at("mass").fail(fmt::format(
+          "lumped changes the inertia of the rigid region '{}'; remove the key: scenes with rigid regions have a "
+          "consistent mass",
+          name));
+    scene.mass = MassKind::consistent;
+  }
+}
+
 }  // namespace
 
 void complete_regions(const Config& config, Scene& scene) {
   fill_regions(config, scene);
   check_materials_exist(scene);
   check_kinematics(config, scene);
+  choose_mass(config, scene);
 }
 
 ElasticityOptions elasticity_of(const Scene& scene, const Region& region) {

@@ -36,6 +36,7 @@ struct Region {
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
   std::optional<StiffnessFactors> stiffness_factors;
   ElasticLaw law = ElasticLaw::corotational;
+  bool rigid = false;  // lib/fem/rigid_body.h
   Integration integration = Integration::automatic;
   Formulation formulation = Formulation::automatic;
   SourceLocation origin;

@@ -12,6 +12,7 @@
 #include "lib/fem/ties/mortar.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
+#include "lib/scene/holders.h"
 #include "lib/scene/supports.h"
 
 namespace orthodyn {
@@ -99,39 +100,22 @@ void move_tied_nodes(const std::vector<TieInput>& inputs, const TiedSurfaces& ti
   }
 }
 
-// What holds each coordinate: nothing, a clamp, or one of the motions.
-class Holders {
- public:
-  explicit Holders(const Supports& supports) {
-    for (const bool held : supports.held) holders_.push_back(held ? 1 : 0);
-    for (std::size_t k = 0; k < supports.moved.size(); ++k)
-      for (const int node : supports.moved[k].nodes)
-        for (std::size_t c = 0; c < 3; ++c)
-          if (supports.moved[k].components[c]) of(node, c) = static_cast<int>(k) + 2;
-  }
-
-  // Whether a held component of a tied node has leaders that are held in the same way, by the sum of their weights.
-  // Leaders beside a held edge have small weights, whose sum is near zero.
-  bool hold_alike(const TiedNode& tied, std::size_t c) const {
-    constexpr double kLeast = 0.75;
-    if (of(tied.node, c) == 0) return true;
-    double alike = 0;
-    for (const auto& [leader, weight] : tied.leaders)
-      if (of(leader, c) == of(tied.node, c)) alike += weight;
-    return alike >= kLeast;
-  }
-
- private:
-  int& of(int node, std::size_t c) { return holders_[3 * static_cast<std::size_t>(node) + c]; }
-  int of(int node, std::size_t c) const { return holders_[3 * static_cast<std::size_t>(node) + c]; }
-
-  std::vector<int> holders_;
-};
+// Whether a held component of a tied node has leaders that are held in the same way, by the sum of their weights.
+// Leaders beside a held edge have small weights, whose sum is near zero.
+bool hold_alike(const Holders& holders, const TiedNode& tied, std::size_t c) {
+  constexpr double kLeast = 0.75;
+  if (holders.of(tied.node, c) == Holders::kNone) return true;
+  double alike = 0;
+  for (const auto& [leader, weight] : tied.leaders)
+    if (holders.of(leader, c) == holders.of(tied.node, c)) alike += weight;
+  return alike >= kLeast;
+}
 
 }  // namespace
 
-TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings) {
-  if (inputs.empty()) return {};
+TiedSurfaces make_ties(const std::vector<TieInput>& inputs, const std::vector<RigidBody>& rigid, Mesh& mesh,
+                       Warnings& warnings) {
+  if (inputs.empty() && rigid.empty()) return {};
   TiedSurfaces out;
   std::vector<TiedNode> nodes;
   std::map<int, const TieInput*> tied_by;
@@ -140,6 +124,12 @@ TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings
     for (const NamedTie& other : out.named)
       if (other.name == named.name) input.origin.fail(fmt::format("name: '{}' is used twice among ties", named.name));
     for (TiedNode& tied : mortar_of(input, mesh, warnings).nodes) {
+      for (const RigidBody& body : rigid)
+        if (body.contains({tied.node}))
+          input.origin.fail(
+              fmt::format("'{}' has nodes of the rigid region '{}', which cannot follow another surface: "
+                          "swap `first` and `second`, or make one rigid region of both",
+                          input.first, body.name));
       const auto [other, is_new] = tied_by.emplace(tied.node, &input);
       if (!is_new)
         input.origin.fail(fmt::format(
@@ -151,6 +141,7 @@ TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings
     }
     out.named.push_back(std::move(named));
   }
+  for (const RigidBody& body : rigid) nodes.insert(nodes.end(), body.followers.begin(), body.followers.end());
   try {
     out.ties = Ties(static_cast<int>(mesh.nodes.size()), std::move(nodes));
   } catch (const ConfigError& e) {
@@ -167,7 +158,7 @@ void release_tied_nodes(const std::vector<TieInput>& inputs, const TiedSurfaces&
   for (std::size_t k = 0; k < inputs.size(); ++k)
     for (const TiedNode& node : tied.named[k].nodes)
       for (std::size_t c = 0; c < 3; ++c)
-        if (!holders.hold_alike(node, c))
+        if (!hold_alike(holders, node, c))
           inputs[k].origin.fail(fmt::format(
               "the node of '{}' at {} m is tied, and its component {} is clamped or moved, but '{}' is not held in the "
               "same way there: clamp or move that surface too, or swap `first` and `second` of the tie",

@@ -27,9 +27,11 @@ struct TiedSurfaces {
   std::vector<NamedTie> named;
 };
 
-// The ties of the mesh, whose tied nodes are moved to the second surfaces. Throws ConfigError if surfaces do not lie on
-// each other. Adds a warning if a part of a first surface has no counterpart, or if a node is moved visibly.
-TiedSurfaces make_ties(const std::vector<TieInput>& inputs, Mesh& mesh, Warnings& warnings);
+// The ties of the mesh, those within rigid bodies included. The tied nodes of surfaces are moved to the second
+// surfaces. Throws ConfigError if surfaces do not lie on each other. Adds a warning if a part of a first surface has no
+// counterpart, or if a node is moved visibly.
+TiedSurfaces make_ties(const std::vector<TieInput>& inputs, const std::vector<RigidBody>& rigid, Mesh& mesh,
+                       Warnings& warnings);
 
 // Tied nodes are held by their leaders: takes them out of the supports, and marks them as held. Throws ConfigError if a
 // clamped or moved node has leaders that are not held in the same way.

@@ -153,8 +153,13 @@ void print_connections(const FemModel& model) {
   const auto& parts = model.parts();
   if (!parts.ties.empty()) fmt::print("ties\n");
   for (const NamedTie& tie : parts.ties) fmt::print("  {}: {} tied nodes\n", tie.name, tie.nodes.size());
-  if (!parts.joints.empty()) fmt::print("joints\n");
+  if (!parts.rigid_bodies.empty()) fmt::print("rigid bodies\n");
+  for (const RigidBody& body : parts.rigid_bodies)
+    fmt::print("  {}: {} nodes, {}\n", body.name, body.nodes().size(), body.is_held ? "held" : "free");
+  const auto is_of_bodies = [](const Joint& joint) { return joint.of == Joint::Of::bodies; };
+  if (std::any_of(parts.joints.begin(), parts.joints.end(), is_of_bodies)) fmt::print("joints\n");
   for (const Joint& joint : parts.joints) {
+    if (!is_of_bodies(joint)) continue;
     int constraints = 0;
     for (const JointEquation& equation : joint.equations) constraints += equation.size();
     fmt::print("  {}: {}\n", joint.name, counted(constraints, "constraint"));

@@ -83,9 +83,7 @@ class BodyContact : public Term {
     return sum;
   }
 
-  void add_mean_force(const NodalState&, const NodalState&, NodalVector&) const override {
-    throw ConfigError("integrator", "energy_momentum is not available with contact of bodies; use another integrator");
-  }
+  bool has_mean_force() const override { return false; }
 
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 

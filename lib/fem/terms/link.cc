@@ -4,7 +4,7 @@ namespace orthodyn {
 
 void Ends::check(const Config& config) const {
   if (count() + between.has_value() != 1)
-    config.fail("give exactly one of surface, box, plane, nearest, nodes, between");
+    config.fail("give exactly one of surface, box, plane, nearest, nodes, region, between");
   if (between && anchor) config.at("anchor").fail("is used with selected nodes only; remove 'anchor' or 'between'");
 }
 

@@ -11,7 +11,9 @@ ModalAnalysis::ModalAnalysis(const Setup& setup, int count, bool about_equilibri
     : setup_(setup), scene_(setup.scene.is_static() ? setup.scene : at_rest(setup.scene)) {
   if (!setup.scene.is_static() && !scene_.motions.empty()) rebuilt_ = build(scene_);
   if (model().constraints())
-    throw ConfigError("joints", "natural modes are not available with joints; remove them, or replace them by springs");
+    throw ConfigError("joints",
+                      "natural modes are not available with joints and free rigid regions; replace joints by springs, "
+                      "and remove `rigid`");
   about_ = state_about(about_equilibrium);
   modes_ = natural_modes(model(), about_, count);
   // Round-off also turns the softest modes of slender bodies into zero modes. Only motions that the geometry leaves

@@ -11,7 +11,7 @@ namespace {
 std::vector<double> held(const DofMap& dofs) {
   std::vector<double> out;
   for (int i = 0; i < dofs.num_nodes(); ++i)
-    for (const int dof : dofs.node(i)) out.push_back(dof < 0 && !dofs.ties().is_tied(i) ? 1 : 0);
+    for (int k = 0; k < 3; ++k) out.push_back(dofs.is_held(i, k) ? 1 : 0);
   return out;
 }
 

@@ -1,0 +1,127 @@
+#include "lib/fem/rigid_body.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kRoundOff = 1e-9;  // of distances from a line or plane, relative to the body
+
+// Distance of x from the point, line or plane through the given points.
+double distance_from(const std::vector<Vec3>& through, const Vec3& x) {
+  const Vec3 r = x - through[0];
+  if (through.size() == 1) return r.norm();
+  const Vec3 a = through[1] - through[0];
+  if (through.size() == 2) return r.cross(a).norm() / a.norm();
+  const Vec3 normal = a.cross(Vec3(through[2] - through[0])).normalized();
+  return std::abs(r.dot(normal));
+}
+
+using Weights = std::vector<std::pair<int, double>>;
+
+// Barycentric coordinates in the tetrahedron of a frame at rest.
+class Barycentric {
+ public:
+  Barycentric(const Mesh& mesh, const std::array<int, 4>& frame) : frame_(frame), origin_(mesh.node(frame[0])) {
+    Mat3 edges;
+    for (std::size_t k = 1; k < 4; ++k) edges.col(static_cast<Eigen::Index>(k) - 1) = mesh.node(frame[k]) - origin_;
+    inverse_ = edges.inverse();
+  }
+
+  Weights of(const Vec3& point) const {
+    const Vec3 w = inverse_ * (point - origin_);
+    return {{frame_[0], 1 - w.sum()}, {frame_[1], w[0]}, {frame_[2], w[1]}, {frame_[3], w[2]}};
+  }
+
+ private:
+  std::array<int, 4> frame_;
+  Vec3 origin_;
+  Mat3 inverse_;
+};
+
+// The nodes of a frame: the first is far from the mean of all nodes, and each further one as far as possible from the
+// point, line or plane through those before. Returns fewer than four if the nodes lie in a plane or on a line. Of nodes
+// that are almost equally far from the plane, the fourth is the one nearest to a corner: then the distances of a thin
+// body's frame do not depend on each other.
+std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
+  constexpr double kAlmost = 0.9;
+  Vec3 mean = Vec3::Zero();
+  for (const int node : nodes) mean += mesh.node(node) / static_cast<double>(nodes.size());
+  std::vector<int> frame;
+  std::vector<Vec3> through{mean};
+  double size = 0;
+  for (int k = 0; k < 4; ++k) {
+    double farthest = 0;
+    for (const int node : nodes) farthest = std::max(farthest, distance_from(through, mesh.node(node)));
+    size = std::max(size, farthest);
+    if (farthest <= kRoundOff * size) return frame;
+    const auto from_corners = [&](int node) {
+      double nearest = size;
+      for (const Vec3& corner : through) nearest = std::min(nearest, (mesh.node(node) - corner).norm());
+      return nearest;
+    };
+    int best = -1;
+    for (const int node : nodes) {
+      const double distance = distance_from(through, mesh.node(node));
+      if (k < 3 ? distance == farthest
+                : distance >= kAlmost * farthest && (best < 0 || from_corners(node) < from_corners(best)))
+        best = node;
+    }
+    frame.push_back(best);
+    if (k == 0) through.clear();
+    through.push_back(mesh.node(best));
+  }
+  return frame;
+}
+
+}  // namespace
+
+RigidBody rigid_body(const Mesh& mesh, const std::vector<int>& nodes, std::string name, std::string place) {
+  const std::vector<int> frame = frame_of(mesh, nodes);
+  if (frame.size() < 4)
+    throw ConfigError(place, fmt::format("the nodes of the rigid region '{}' lie in a plane", name));
+  RigidBody body{std::move(name), std::move(place), {frame[0], frame[1], frame[2], frame[3]}, {}};
+  const Barycentric barycentric(mesh, body.frame);
+  for (const int node : nodes)
+    if (std::find(frame.begin(), frame.end(), node) == frame.end())
+      body.followers.push_back({node, barycentric.of(mesh.node(node))});
+  return body;
+}
+
+std::vector<int> RigidBody::nodes() const {
+  std::vector<int> all(frame.begin(), frame.end());
+  for (const TiedNode& follower : followers) all.push_back(follower.node);
+  return all;
+}
+
+bool RigidBody::contains(const std::vector<int>& some) const {
+  std::vector<int> all = nodes();
+  std::sort(all.begin(), all.end());
+  return std::all_of(some.begin(), some.end(),
+                     [&](int node) { return std::binary_search(all.begin(), all.end(), node); });
+}
+
+JointPoint RigidBody::point(const Mesh& mesh, const Vec3& point) const {
+  return {Barycentric(mesh, frame).of(point), point};
+}
+
+Joint RigidBody::rigidity(const Mesh& mesh) const {
+  const auto corner = [&](std::size_t k) { return JointPoint{{{frame[k], 1.0}}, mesh.node(frame[k])}; };
+  Joint joint{name, place, {}, Joint::Of::rigid_body};
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b) joint.equations.push_back(JointEquation::distance(corner(a), corner(b)));
+  return joint;
+}
+
+bool spans_plane(const Mesh& mesh, const std::vector<int>& nodes) {
+  return !nodes.empty() && frame_of(mesh, nodes).size() >= 3;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,43 @@
+// Rigid bodies. All nodes of a rigid body follow four of them, its frame, as in an affine motion: the weights of a node
+// are its barycentric coordinates in the tetrahedron of the frame at rest. The six distances within the frame are
+// constraints (joints.h), which make the motion rigid.
+//
+// So a body has twelve unknowns and six constraints, whatever the number of its nodes. Its mass matrix is constant, and
+// no angle is singular. Source: "natural coordinates", Garcia de Jalon & Bayo, Kinematic and Dynamic Simulation of
+// Multibody Systems, 1994.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lib/fem/joints.h"
+#include "lib/fem/ties/ties.h"
+#include "lib/mesh/mesh.h"
+
+namespace orthodyn {
+
+struct RigidBody {
+  std::string name;
+  std::string place;  // in the input, for messages
+  std::array<int, 4> frame;
+  std::vector<TiedNode> followers;  // all other nodes
+  bool is_held = false;             // by a clamp or a motion of its frame
+
+  // All nodes, those of the frame first.
+  std::vector<int> nodes() const;
+  // Whether all of these nodes are nodes of the body.
+  bool contains(const std::vector<int>& some) const;
+  // The six distances of the frame.
+  Joint rigidity(const Mesh& mesh) const;
+  // The mean of the frame's nodes that lies at `point` (m) at rest.
+  JointPoint point(const Mesh& mesh, const Vec3& point) const;
+};
+
+// The body of these nodes. The frame is a tetrahedron of large volume. Throws ConfigError if the nodes lie in a plane.
+RigidBody rigid_body(const Mesh& mesh, const std::vector<int>& nodes, std::string name, std::string place);
+
+// Whether the body's motion is known from these nodes: whether three of them are not on a line.
+bool spans_plane(const Mesh& mesh, const std::vector<int>& nodes);
+
+}  // namespace orthodyn

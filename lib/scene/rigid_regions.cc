@@ -1,0 +1,137 @@
+#include "lib/scene/rigid_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "lib/scene/holders.h"
+#include "lib/scene/scene.h"
+#include "lib/scene/supports.h"
+
+namespace orthodyn {
+
+namespace {
+
+struct RegionNodes {
+  std::string name, place;
+  std::set<int> nodes;
+};
+
+bool share_nodes(const std::set<int>& a, const std::set<int>& b) {
+  return std::any_of(a.begin(), a.end(), [&](int node) { return b.contains(node); });
+}
+
+std::vector<RegionNodes> rigid_regions(const std::vector<const Region*>& regions, const Mesh& mesh) {
+  std::vector<RegionNodes> all(regions.size());
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto r = static_cast<std::size_t>(mesh.region_of[cell]);
+    if (regions[r]->rigid) all[r].nodes.insert(mesh.cells[cell].begin(), mesh.cells[cell].end());
+  }
+  std::vector<RegionNodes> out;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (all[r].nodes.empty()) continue;
+    RegionNodes body{mesh.region_names[r], regions[r]->origin.where, std::move(all[r].nodes)};
+    for (auto other = out.begin(); other != out.end();) {
+      if (!share_nodes(other->nodes, body.nodes)) {
+        ++other;
+        continue;
+      }
+      body.name = other->name + "+" + body.name;
+      body.nodes.merge(other->nodes);
+      other = out.erase(other);
+    }
+    out.push_back(std::move(body));
+  }
+  return out;
+}
+
+// The nodes of a body whose three components belong to the same holder, by holder.
+std::map<int, std::vector<int>> held_nodes(const RigidBody& body, const Holders& holders) {
+  std::map<int, std::vector<int>> out;
+  for (const int node : body.nodes()) {
+    const int holder = holders.of(node, 0);
+    if (holder != Holders::kNone && holder == holders.of(node, 1) && holder == holders.of(node, 2))
+      out[holder].push_back(node);
+  }
+  return out;
+}
+
+bool is_touched(const RigidBody& body, const Holders& holders) {
+  const std::vector<int> nodes = body.nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [&](int node) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (holders.of(node, c) != Holders::kNone) return true;
+    return false;
+  });
+}
+
+// Gives the reaction of the frame to the support that has the node `known`.
+void add_to_support(std::vector<Support>& supports, int known, const std::array<int, 4>& frame) {
+  for (Support& support : supports) {
+    const auto at = std::find(support.nodes.begin(), support.nodes.end(), known);
+    if (at == support.nodes.end() || !support.held[static_cast<std::size_t>(at - support.nodes.begin())][0]) continue;
+    for (const int node : frame) {
+      if (std::find(support.nodes.begin(), support.nodes.end(), node) != support.nodes.end()) continue;
+      support.nodes.push_back(node);
+      support.held.push_back({true, true, true});
+    }
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<RigidBody> rigid_bodies(const std::vector<const Region*>& regions, const Mesh& mesh) {
+  std::vector<RigidBody> out;
+  for (RegionNodes& region : rigid_regions(regions, mesh))
+    out.push_back(
+        rigid_body(mesh, {region.nodes.begin(), region.nodes.end()}, std::move(region.name), std::move(region.place)));
+  return out;
+}
+
+void hold_rigid_bodies(const Scene& scene, const Mesh& mesh, std::vector<RigidBody>& bodies, Supports& supports) {
+  if (bodies.empty()) return;
+  const Holders holders(supports);
+  for (RigidBody& body : bodies) {
+    if (!is_touched(body, holders)) continue;
+    const auto held = held_nodes(body, holders);
+    const auto whole =
+        std::find_if(held.begin(), held.end(), [&](const auto& entry) { return spans_plane(mesh, entry.second); });
+    if (whole == held.end())
+      throw ConfigError(body.place,
+                        fmt::format("the rigid region '{}' is held in part: a clamp or motion must hold all components "
+                                    "of three of its nodes that are not on a line, and then holds the whole body; use "
+                                    "joints for bodies that turn or slide",
+                                    body.name));
+    if (held.size() > 1)
+      throw ConfigError(
+          body.place, fmt::format("the rigid region '{}' is held by several clamps and motions; leave one", body.name));
+    body.is_held = true;
+    for (const int node : body.frame)
+      for (std::size_t c = 0; c < 3; ++c) supports.held[3 * static_cast<std::size_t>(node) + c] = true;
+    if (const int motion = Holders::motion(whole->first); motion >= 0) {
+      const SupportMotion& given = scene.motions[static_cast<std::size_t>(motion)];
+      if (given.displacement)
+        given.origin.fail(fmt::format(
+            "formulas would deform the rigid region '{}'; give a translation or a rotation with a factor", body.name));
+      std::vector<int>& moved = supports.moved[static_cast<std::size_t>(motion)].nodes;
+      for (const int node : body.frame)
+        if (std::find(moved.begin(), moved.end(), node) == moved.end()) moved.push_back(node);
+    }
+    add_to_support(supports.named, whole->second.front(), body.frame);
+  }
+}
+
+void require_dynamic(const Scene& scene, const std::vector<RigidBody>& bodies) {
+  for (const RigidBody& body : bodies) {
+    if (body.is_held || (scene.analysis == Analysis::dynamic && scene.start == Start::rest)) continue;
+    throw ConfigError(body.place,
+                      fmt::format("the rigid region '{}' is free: free rigid bodies need analysis: dynamic and start: "
+                                  "rest; clamp it, or remove `rigid`",
+                                  body.name));
+  }
+}
+
+}  // namespace orthodyn
