@@ -273,6 +273,11 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
     const auto more = parts_.moved->breakpoints(start, end);
     times.insert(times.end(), more.begin(), more.end());
   }
+  for (const Joint& joint : parts_.joints)
+    if (const JointEquation* motor = joint.motor()) {
+      const auto more = times_between(motor->motor.factor->kinks(), start, end);
+      times.insert(times.end(), more.begin(), more.end());
+    }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -281,6 +286,8 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
 StepLimits FemModel::step_limits(double start, double end) const {
   StepLimits limits;
   for (const Term* term : all_terms(parts_)) limits.add(term->step_limits(start, end));
+  for (const Joint& joint : parts_.joints)
+    if (const JointEquation* motor = joint.motor()) limits.add(motor->motor.factor->step_limits(start, end));
   const auto& moved = parts_.subdomain ? parts_.moved_everywhere : parts_.moved;
   if (moved) limits.add(moved->step_limits(start, end));
   return limits;

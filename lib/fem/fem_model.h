@@ -180,8 +180,12 @@ std::unique_ptr<const InternalVariables> make_internal_variables(FemModel::Parts
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts);
 // Forces of all joints on the nodes, and of one joint on its first body (N), at displacements u with the multipliers
 // lambda; joint_force() is NaN without multipliers.
-NodalVector joint_forces(const FemModel::Parts& parts, const NodalVector& u, const Vector& lambda);
-Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalVector& u, const Vector& lambda);
+NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda);
+Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda);
+// The force (N) or torque (N m) of a joint's motor on the first body; NaN without multipliers. The power of all motors,
+// W; 0 without multipliers.
+double motor_force(const FemModel::Parts& parts, const Joint& joint, const Vector& lambda);
+double motor_power(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda);
 
 // The discrete gradient of the model: the sum of Term::add_mean_force() and of the damping at mid-step. `parts` must
 // outlive the result. mean_force() is thread-safe, and throws RecoverableError if a corotational element is inverted or

@@ -153,6 +153,7 @@ double dissipated_power(const View& view) {
 double load_power(const View& view) {
   const auto& parts = view.parts();
   double power = parts.moved ? view.support_forces().cwiseProduct(view.nodal().u_rate).sum() : 0;
+  power += motor_power(parts, view.nodal(), view.multipliers());
   NodalState whole = view.state();
   whole.load_factor = 1;  // the sum is multiplied by it
   for (const auto& term : parts.loads) power += view.nodal().load_factor * term->load_power(whole);
@@ -338,8 +339,21 @@ std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
       out.push_back(
           {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
            [&joint](const View& view) {
-             return flat(joint_force(view.parts(), joint, view.nodal().u, view.multipliers()));
+             return flat(joint_force(view.parts(), joint, view.nodal(), view.multipliers()));
            }});
+  for (const Joint& joint : joints) {
+    if (joint.coordinate)
+      out.push_back(
+          {{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
+            joint.coordinate->is_angle() ? "Angle of the first body of the joint about the line, from -pi to pi."
+                                         : "Distance of the first body of the joint along the line."},
+           [&joint](const View& view) { return Values{joint.coordinate->value(view.nodal().u)}; }});
+    if (joint.motor())
+      out.push_back(
+          {{"motor." + joint.name, Location::global, 1, joint.coordinate->is_angle() ? "N m" : "N",
+            "Force or torque of the joint's motor on its first body."},
+           [&joint](const View& view) { return Values{motor_force(view.parts(), joint, view.multipliers())}; }});
+  }
   if (joints.empty()) return out;
   const auto largest = [](const View& view, bool of_rates) {
     const auto constraints = make_joint_constraints(view.parts());

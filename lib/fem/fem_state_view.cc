@@ -123,7 +123,7 @@ const std::vector<RegionMeshError>& FemStateView::mesh_errors() const {
 
 NodalVector FemStateView::forces() const {
   NodalVector f = term_forces(parts_, nodal_);
-  if (lambda_.size() > 0) f += joint_forces(parts_, nodal_.u, lambda_);
+  if (lambda_.size() > 0) f += joint_forces(parts_, nodal_, lambda_);
   return f;
 }
 

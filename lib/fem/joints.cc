@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,61 +12,68 @@
 
 namespace orthodyn {
 
-JointPoint joint_point(const Mesh& mesh, const std::vector<int>& nodes, const Vec3& point) {
-  constexpr double kRoundOff = 1e-9;
-  double size = 0;
-  for (const int node : nodes) size = std::max(size, (mesh.node(node) - point).norm());
-  if (size == 0) size = 1;
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  Eigen::Matrix4Xd A(4, n);  // of the sum and the place, relative to the point and to the size
-  for (Eigen::Index i = 0; i < n; ++i) A.col(i) << 1, (mesh.node(nodes[static_cast<std::size_t>(i)]) - point) / size;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_norm;
-  least_norm.setThreshold(kRoundOff);
-  least_norm.compute(A);
-  const Eigen::Vector4d wanted = Eigen::Vector4d::UnitX();
-  const Vector weights = least_norm.solve(wanted);
-  JointPoint out{{}, point};
-  if ((A * weights - wanted).norm() > kRoundOff) return out;
-  for (Eigen::Index i = 0; i < n; ++i) out.weights.emplace_back(nodes[static_cast<std::size_t>(i)], weights[i]);
-  return out;
-}
-
 namespace {
-
-// The mean of nodal values, such as displacements; zero for a point in space.
-Vec3 place(const JointPoint& point, const NodalVector& nodal) {
-  Vec3 sum = Vec3::Zero();
-  for (const auto& [node, weight] : point.weights) sum += weight * nodal.col(node);
-  return sum;
-}
 
 // The spans r and s of an equation, or their changes or rates.
 struct Spans {
   Vec3 r, s;
 };
 
-Spans rest_spans(const JointEquation& e) { return {e.first.rest - e.second.rest, e.third.rest - e.second.rest}; }
-
-// From nodal displacements or rates.
-Spans changes(const JointEquation& e, const NodalVector& nodal) {
-  const Vec3 second = place(e.second, nodal);
-  return {place(e.first, nodal) - second, place(e.third, nodal) - second};
-}
-
-Spans spans(const JointEquation& e, const NodalVector& u) {
-  const Spans rest = rest_spans(e), change = changes(e, u);
-  return {rest.r + change.r, rest.s + change.s};
-}
-
-// The derivatives of constraint k of an equation by the places of its three points.
-struct Slopes {
-  Vec3 first, second, third;
+// The factors of the spans to the third and the fourth point in s, and their first and second derivatives by time.
+struct Turn {
+  double third = 1, fourth = 0, third_rate = 0, fourth_rate = 0, third_curvature = 0, fourth_curvature = 0;
 };
 
-Slopes slopes(const JointEquation& e, int k, const NodalVector& u) {
-  if (e.kind == JointEquation::Kind::coincide) return {Vec3::Unit(k), -Vec3::Unit(k), Vec3::Zero()};
-  const auto [r, s] = spans(e, u);
-  return {s / e.length(), -(r + s) / e.length(), r / e.length()};
+Turn turn_of(const JointEquation& e, double t) {
+  if (e.kind != JointEquation::Kind::turn) return {};
+  const double m = e.motor.value(t), rate = e.motor.rate(t), curvature = e.motor.curvature(t);
+  const double cos = std::cos(m), sin = std::sin(m);
+  return {
+      cos, -sin, -sin * rate, -cos * rate, -sin * curvature - cos * rate * rate, -cos * curvature + sin * rate * rate};
+}
+
+// The sum of the spans from the second point to the third and the fourth one with these factors.
+template <class At>
+Vec3 combined(const JointEquation& e, double third, double fourth, At&& at) {
+  const Vec3 second = at(e.second);
+  if (fourth == 0) return third * (at(e.third) - second);
+  return third * (at(e.third) - second) + fourth * (at(e.fourth) - second);
+}
+
+struct Rest {
+  Vec3 operator()(const JointPoint& point) const { return point.rest; }
+};
+struct Mean {
+  const NodalVector& nodal;
+  Vec3 operator()(const JointPoint& point) const { return point.mean(nodal); }
+};
+struct Place {
+  const NodalVector& u;
+  Vec3 operator()(const JointPoint& point) const { return point.rest + point.mean(u); }
+};
+
+// Of places, rest places, displacements or rates.
+template <class At>
+Spans spans_of(const JointEquation& e, const Turn& turn, At&& at) {
+  return {at(e.first) - at(e.second), combined(e, turn.third, turn.fourth, at)};
+}
+
+// The prescribed distance of a slide, m, or its rate or curvature; 0 for other equations.
+double slide(const JointEquation& e, double (JointMotor::*of)(double) const, double t) {
+  return e.kind == JointEquation::Kind::slide ? (e.motor.*of)(t) : 0;
+}
+
+// The derivatives of constraint k of an equation by the places of its four points.
+struct Slopes {
+  Vec3 first, second, third, fourth;
+};
+
+Slopes slopes(const JointEquation& e, int k, double t, const NodalVector& u) {
+  if (e.kind == JointEquation::Kind::coincide) return {Vec3::Unit(k), -Vec3::Unit(k), Vec3::Zero(), Vec3::Zero()};
+  const Turn turn = turn_of(e, t);
+  const auto [r, s] = spans_of(e, turn, Place{u});
+  return {s / e.length(), -(s + (turn.third + turn.fourth) * r) / e.length(), turn.third * r / e.length(),
+          turn.fourth * r / e.length()};
 }
 
 // Calls visit(point, slope) for the points of an equation.
@@ -76,6 +82,15 @@ void for_each_point(const JointEquation& e, const Slopes& at, Visit&& visit) {
   visit(e.first, at.first);
   visit(e.second, at.second);
   visit(e.third, at.third);
+  visit(e.fourth, at.fourth);
+}
+
+// The partial derivative of a driven constraint by time.
+double rate_of_motor(const JointEquation& e, double t, const NodalVector& u) {
+  if (e.kind == JointEquation::Kind::slide) return -e.motor.rate(t);
+  const Turn turn = turn_of(e, t);
+  const Vec3 r = spans_of(e, turn, Place{u}).r;
+  return r.dot(combined(e, turn.third_rate, turn.fourth_rate, Place{u})) / e.length();
 }
 
 // The joint that has this constraint.
@@ -104,6 +119,7 @@ class JointConstraints final : public Constraints {
           return fmt::format("{} {}, {}", joint.of == Joint::Of::bodies ? "joint" : "rigid body", joint.name,
                              equation.kind == JointEquation::Kind::coincide ? std::string(1, "xyz"[constraint - first])
                              : equation.kind == JointEquation::Kind::distance ? "distance"
+                             : equation.is_driven()                           ? "motor"
                                                                               : "line");
         first += equation.size();
       }
@@ -113,9 +129,16 @@ class JointConstraints final : public Constraints {
   void values(double t, const ConstVectorRef& q, VectorRef g) const override {
     const NodalExpansion nodal(parts_, t, q, Vector::Zero(q.size()));
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Spans rest = rest_spans(e), change = changes(e, nodal.u);
-      if (e.kind == JointEquation::Kind::coincide) g.segment<3>(i) = change.r;  // without the digits of the place
-      else g[i] = (change.r.dot(rest.s + change.s) + rest.r.dot(change.s)) / e.length();
+      const Turn turn = turn_of(e, t);
+      const Spans change = spans_of(e, turn, Mean{nodal.u});
+      if (e.kind == JointEquation::Kind::coincide) {  // without the digits of the place
+        g.segment<3>(i) = change.r;
+        return;
+      }
+      const Spans rest = spans_of(e, turn, Rest{});
+      const double change_at_rest = e.kind == JointEquation::Kind::turn ? rest.r.dot(rest.s) : 0;
+      g[i] = (change_at_rest + change.r.dot(rest.s + change.s) + rest.r.dot(change.s)) / e.length() -
+             slide(e, &JointMotor::value, t);
     });
   }
 
@@ -133,7 +156,7 @@ class JointConstraints final : public Constraints {
     };
     for_each([&](const JointEquation& e, Eigen::Index i) {
       for (int k = 0; k < e.size(); ++k)
-        for_each_point(e, slopes(e, k, nodal.u),
+        for_each_point(e, slopes(e, k, t, nodal.u),
                        [&](const JointPoint& point, const Vec3& slope) { add(point, i + k, slope); });
     });
     Eigen::SparseMatrix<double> out(q.size(), size_);
@@ -144,9 +167,15 @@ class JointConstraints final : public Constraints {
   void rates(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef g_rate) const override {
     const NodalExpansion nodal(parts_, t, q, v);
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Spans at = spans(e, nodal.u), rate = changes(e, nodal.u_rate);
-      if (e.kind == JointEquation::Kind::coincide) g_rate.segment<3>(i) = rate.r;
-      else g_rate[i] = (rate.r.dot(at.s) + at.r.dot(rate.s)) / e.length();
+      const Turn turn = turn_of(e, t);
+      const Spans rate = spans_of(e, turn, Mean{nodal.u_rate});
+      if (e.kind == JointEquation::Kind::coincide) {
+        g_rate.segment<3>(i) = rate.r;
+        return;
+      }
+      const Spans at = spans_of(e, turn, Place{nodal.u});
+      g_rate[i] = (rate.r.dot(at.s) + at.r.dot(rate.s)) / e.length();
+      if (e.is_driven()) g_rate[i] += rate_of_motor(e, t, nodal.u);
     });
   }
 
@@ -155,9 +184,18 @@ class JointConstraints final : public Constraints {
     NodalVector a = parts_.moved ? parts_.moved->accelerations(t) : NodalVector(NodalVector::Zero(3, nodal.x.cols()));
     if (parts_.moved) parts_.dofs->ties().place(a);
     for_each([&](const JointEquation& e, Eigen::Index i) {
-      const Spans at = spans(e, nodal.u), rate = changes(e, nodal.u_rate), of_supports = changes(e, a);
-      if (e.kind == JointEquation::Kind::coincide) c.segment<3>(i) = of_supports.r;
-      else c[i] = (2 * rate.r.dot(rate.s) + of_supports.r.dot(at.s) + at.r.dot(of_supports.s)) / e.length();
+      const Turn turn = turn_of(e, t);
+      const Spans of_supports = spans_of(e, turn, Mean{a});
+      if (e.kind == JointEquation::Kind::coincide) {
+        c.segment<3>(i) = of_supports.r;
+        return;
+      }
+      const Spans at = spans_of(e, turn, Place{nodal.u}), rate = spans_of(e, turn, Mean{nodal.u_rate});
+      const Vec3 s_rate = rate.s + combined(e, turn.third_rate, turn.fourth_rate, Place{nodal.u});
+      const Vec3 s_curvature = of_supports.s + 2 * combined(e, turn.third_rate, turn.fourth_rate, Mean{nodal.u_rate}) +
+                               combined(e, turn.third_curvature, turn.fourth_curvature, Place{nodal.u});
+      c[i] = (2 * rate.r.dot(s_rate) + of_supports.r.dot(at.s) + at.r.dot(s_curvature)) / e.length() -
+             slide(e, &JointMotor::curvature, t);
     });
   }
 
@@ -179,13 +217,13 @@ class JointConstraints final : public Constraints {
 
 }  // namespace
 
-NodalVector joint_forces(const FemModel::Parts& parts, const NodalVector& u, const Vector& lambda) {
-  NodalVector f = NodalVector::Zero(3, u.cols());
+NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda) {
+  NodalVector f = NodalVector::Zero(3, nodal.u.cols());
   Eigen::Index first = 0;
   for (const Joint& joint : parts.joints)
     for (const JointEquation& e : joint.equations) {
       for (int k = 0; k < e.size(); ++k)
-        for_each_point(e, slopes(e, k, u), [&](const JointPoint& point, const Vec3& slope) {
+        for_each_point(e, slopes(e, k, nodal.time, nodal.u), [&](const JointPoint& point, const Vec3& slope) {
           for (const auto& [node, weight] : point.weights) f.col(node) -= weight * lambda[first + k] * slope;
         });
       first += e.size();
@@ -194,20 +232,51 @@ NodalVector joint_forces(const FemModel::Parts& parts, const NodalVector& u, con
 }
 
 // The third point belongs to the first body if the distance is kept, else to the second one.
-Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalVector& u, const Vector& lambda) {
+Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda) {
   if (lambda.size() == 0) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3 sum = Vec3::Zero();
   Eigen::Index first = 0;
   for (const Joint& other : parts.joints)
     for (const JointEquation& e : other.equations) {
       for (int k = 0; k < e.size() && &other == &joint; ++k) {
-        const Slopes at = slopes(e, k, u);
+        const Slopes at = slopes(e, k, nodal.time, nodal.u);
         sum -= lambda[first + k] * at.first;
         if (e.kind == JointEquation::Kind::distance) sum -= lambda[first + k] * at.third;
       }
       first += e.size();
     }
   return sum;
+}
+
+// g = per_coordinate() times the coordinate, and power = lambda dg/dt: see motor_power().
+double motor_force(const FemModel::Parts& parts, const Joint& joint, const Vector& lambda) {
+  if (lambda.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  double force = 0;
+  Eigen::Index first = 0;
+  for (const Joint& other : parts.joints)
+    for (const JointEquation& e : other.equations) {
+      if (&other == &joint && e.is_driven()) force = -lambda[first] * e.per_coordinate();
+      first += e.size();
+    }
+  return force;
+}
+
+// The forces -G^T lambda have the power -v . G^T lambda, and G v + dg/dt = 0.
+double motor_power(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda) {
+  double power = 0;
+  Eigen::Index first = 0;
+  for (const Joint& joint : parts.joints)
+    for (const JointEquation& e : joint.equations) {
+      if (e.is_driven() && lambda.size() > 0) power += lambda[first] * rate_of_motor(e, nodal.time, nodal.u);
+      first += e.size();
+    }
+  return power;
+}
+
+const JointEquation* Joint::motor() const {
+  for (const JointEquation& e : equations)
+    if (e.is_driven()) return &e;
+  return nullptr;
 }
 
 double start_consistently(const FemModel& model, State& state) {

@@ -1,46 +1,61 @@
 // Joints between two bodies, or between a body and a point in space, as constraints of a FemModel.
-//
-// A joint holds points of bodies. Such a point is a mean of nodes, x = sum_i w_i x_i, whose weights have the sum 1 and
-// give the point itself in the rest shape. It moves with every affine motion of the nodes, rotations included, and a
-// force F at the point acts on the nodes as w_i F: forces and torques of both sides of a joint cancel exactly.
+// A joint holds points of bodies (joint_point.h).
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/fem/joint_coordinate.h"
+#include "lib/fem/time_functions/time_function.h"
 #include "lib/mesh/mesh.h"
 #include "lib/ode/constraints.h"
 
 namespace orthodyn {
 
-struct JointPoint {
-  std::vector<std::pair<int, double>> weights;  // of nodes; empty for a point in space
-  Vec3 rest = Vec3::Zero();                     // m
+// The course of a joint's coordinate in time, m(t) = amplitude factor(t), in m or rad.
+struct JointMotor {
+  double amplitude = 0;
+  std::shared_ptr<const TimeFunction> factor;
+  double value(double t) const { return amplitude * factor->value(t); }
+  double rate(double t) const { return amplitude * factor->rate(t); }
+  double curvature(double t) const { return amplitude * factor->curvature(t); }
 };
 
-// The mean of these nodes that lies at `point`, with the least sum of squared weights. Empty weights if there is none:
-// if the nodes lie in a plane or on a line that does not contain the point.
-JointPoint joint_point(const Mesh& mesh, const std::vector<int>& nodes, const Vec3& point);
-
 // coincide: two points are one. distance: two points keep their distance at rest. across: the span from the second
-// point to the first one stays at right angles to that from the second point to the third one.
+// point to the first one stays at right angles to that from the second point to the third one. slide: the first point
+// is the distance m(t) along this span. turn: as across, with a span that turns by m(t) from that to the third point
+// towards that opposite to the fourth point.
 //
-// Both of the latter keep the product r . s of two spans, g = (r . s - r0 . s0) / length(): r from the second to the
-// first point and s from the second to the third one, which is the first one if the distance is kept.
+// All but `coincide` prescribe the product r . s of two spans, g = (r . s - r0 . s0) / length(): r from the second to
+// the first point, and s from the second to the third one, which is the first one if the distance is kept.
+//   slide: g = (r . s - r0 . s0) / length() - m(t)
+//   turn: s = cos(m) s3 - sin(m) s4, with the spans from the second point to the third and the fourth one.
 struct JointEquation {
-  enum class Kind { coincide, distance, across };
+  enum class Kind { coincide, distance, across, slide, turn };
   static JointEquation coincide(JointPoint a, JointPoint b) { return {Kind::coincide, std::move(a), std::move(b), {}}; }
   static JointEquation distance(const JointPoint& a, JointPoint b) { return {Kind::distance, a, std::move(b), a}; }
   static JointEquation across(JointPoint a, JointPoint b, JointPoint c) {
     return {Kind::across, std::move(a), std::move(b), std::move(c)};
   }
+  static JointEquation slide(JointPoint a, JointPoint b, JointPoint c, JointMotor motor) {
+    return {Kind::slide, std::move(a), std::move(b), std::move(c), {}, std::move(motor)};
+  }
+  static JointEquation turn(JointPoint a, JointPoint b, JointPoint c, JointPoint d, JointMotor motor) {
+    return {Kind::turn, std::move(a), std::move(b), std::move(c), std::move(d), std::move(motor)};
+  }
 
   Kind kind;
-  JointPoint first, second, third;
+  JointPoint first, second, third, fourth = {};
+  JointMotor motor = {};
   int size() const { return kind == Kind::coincide ? 3 : 1; }
+  bool is_driven() const { return kind == Kind::slide || kind == Kind::turn; }
   // The derivative of r . s by the first constraint's distance, m.
   double length() const { return (kind == Kind::distance ? 2 : 1) * (third.rest - second.rest).norm(); }
+  // The derivative of g by the joint's coordinate, of a driven joint: 1, or m per rad.
+  double per_coordinate() const { return kind == Kind::turn ? (first.rest - second.rest).norm() : 1; }
 };
 
 struct Joint {
@@ -50,6 +65,9 @@ struct Joint {
   std::string place;  // in the input, for messages
   std::vector<JointEquation> equations;
   Of of = Of::bodies;
+  std::optional<JointCoordinate> coordinate = {};  // of joints that slide or turn
+
+  const JointEquation* motor() const;  // null without a motor
 };
 
 class FemModel;

@@ -77,6 +77,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   declare_added_laws(scene, regions, traits);
   for (const SupportMotion& motion : scene.motions) motion.declare(traits);
   for (const TermChoice* term : scene.force_terms()) term->declare(traits);
+  for (const JointInput& joint : scene.joints) joint.declare(traits);
   return traits;
 }
 
@@ -207,6 +208,37 @@ void require_no_ties(const Scene& scene, const std::vector<RigidBody>& rigid) {
     throw ConfigError(rigid.front().place, "rigid regions are not available on several ranks; run on one");
 }
 
+std::vector<Joint> joints_of(const Scene& scene, const Mesh& mesh, const std::vector<RigidBody>& rigid,
+                             const Ranks* ranks) {
+  std::vector<Joint> joints;
+  for (const JointInput& joint : scene.joints) {
+    if (scene.start == Start::equilibrium)
+      joint.origin.fail("joints are not available with start: equilibrium; start at rest, and let loads rise slowly");
+    if (ranks) joint.origin.fail("joints are not available on several ranks; run on one");
+    for (const Joint& other : joints)
+      if (other.name == joint.name) joint.origin.fail(fmt::format("name: '{}' is used twice among joints", joint.name));
+    joints.push_back(joint.on(mesh, rigid, scene.time.start, scene.time.end));
+  }
+  return joints;
+}
+
+// In the next two functions, the first joints are those of the scene.
+void add_joint_couplings(const Scene& scene, const std::vector<Joint>& joints, NodePairs& pairs) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    if (!scene.joints[k].law().acts()) continue;
+    const NodePairs own = joint_couplings(*joints[k].coordinate);
+    pairs.insert(pairs.end(), own.begin(), own.end());
+  }
+}
+
+void add_joint_forces(const Scene& scene, FemModel::Parts& parts) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const JointLaw law = scene.joints[k].law();
+    if (law.acts())
+      parts.loads.push_back(joint_forces_term(scene.joints[k].name, *parts.joints[k].coordinate, law, *parts.pattern));
+  }
+}
+
 // Makes the initial velocities fit the joints.
 void fit_joints(const Scene& scene, BuiltScene& built) {
   constexpr double kTold = 1e-6;  // relative to the largest velocity
@@ -239,7 +271,9 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   release_tied_nodes(scene.ties, tied, parts.mesh, supports);
   parts.ties = std::move(tied.named);
   require_free_coordinates(scene, supports.held);
+  parts.joints = joints_of(scene, parts.mesh, parts.rigid_bodies, ranks);
   NodePairs pairs = couplings(scene, parts.mesh);
+  add_joint_couplings(scene, parts.joints, pairs);
 
   Mesh part;  // several ranks: this rank's part of the mesh
   if (ranks) {
@@ -272,18 +306,11 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.traits = traits_of(scene, deformable);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;
   if (subdomain) require_no_internal_variables(scene, deformable);
-  for (const JointInput& joint : scene.joints) {
-    if (scene.start == Start::equilibrium)
-      joint.origin.fail("joints are not available with start: equilibrium; start at rest, and let loads rise slowly");
-    if (subdomain) joint.origin.fail("joints are not available on several ranks; run on one");
-    for (const Joint& other : parts.joints)
-      if (other.name == joint.name) joint.origin.fail(fmt::format("name: '{}' is used twice among joints", joint.name));
-    parts.joints.push_back(joint.on(parts.mesh, parts.rigid_bodies));
-  }
   for (const RigidBody& body : parts.rigid_bodies)
     if (!body.is_held) parts.joints.push_back(body.rigidity(parts.mesh));
   auto added = add_elasticity(scene, std::move(elastic), elements, parts);
   add_force_terms(scene, rest, parts);
+  add_joint_forces(scene, parts);
   for (auto& term : added) {
     if (parts.subdomain) parts.load_descriptions.push_back(term->description());
     parts.loads.push_back(std::move(term));

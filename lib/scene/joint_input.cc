@@ -10,9 +10,92 @@ const Spec<JointEnd>& JointEnd::spec() {
   return s;
 }
 
+const Spec<JointSpring>& JointSpring::spec() {
+  static const auto s =
+      Spec<JointSpring>()
+          .key("stiffness", &JointSpring::stiffness, "Force per distance (N/m), or torque per angle (N m).",
+               {.range = kNonNegative})
+          .key("damping", &JointSpring::damping, "Force per velocity (N s/m), or torque per angular velocity (N m s).",
+               {.range = kNonNegative})
+          .key("rest", &JointSpring::rest,
+               "Distance or angle without force, such as 30 deg; default 0, the rest shape.")
+          .check([](const JointSpring& spring, const Config& config) {
+            if (spring.stiffness == 0 && spring.damping == 0) config.fail("give a stiffness, a damping, or both");
+          });
+  return s;
+}
+
+const Spec<JointStop>& JointStop::spec() {
+  static const auto s =
+      Spec<JointStop>()
+          .key("low", &JointStop::low, "Lowest distance or angle; default: none.")
+          .key("high", &JointStop::high, "Highest distance or angle; default: none.")
+          .key("stiffness", &JointStop::stiffness, "Of the stop: N/m, or N m per rad.",
+               {.required = true, .range = kPositive})
+          .key("onset", &JointStop::onset,
+               "Distance or angle over which the stop sets in; default a hundredth of the range, or of a line's length "
+               "or a radian.",
+               {.range = kPositive})
+          .check([](const JointStop& stop, const Config& config) {
+            if (!stop.low && !stop.high) config.fail("give `low`, `high` or both");
+            if (stop.low && stop.high && *stop.low >= *stop.high) config.at("high").fail("must be above `low`");
+            for (const char* key : {"low", "high"}) {
+              const auto& limit = key[0] == 'l' ? stop.low : stop.high;
+              if (limit && (key[0] == 'l' ? *limit > 0 : *limit < 0))
+                config.at(key).fail("excludes the rest shape, where the coordinate is 0");
+            }
+          });
+  return s;
+}
+
+const Spec<JointFriction>& JointFriction::spec() {
+  static const auto s =
+      Spec<JointFriction>()
+          .key("limit", &JointFriction::limit, "Largest friction force (N) or torque (N m).",
+               {.required = true, .range = kPositive})
+          .key("creep", &JointFriction::creep,
+               "Rate at which friction reaches 0.7 of its limit, m/s or rad/s; default 1 mm/s, or 0.01 rad/s.",
+               {.range = kPositive});
+  return s;
+}
+
+const Spec<JointDrive>& JointDrive::spec() {
+  static const auto s =
+      Spec<JointDrive>()
+          .key("to", &JointDrive::to, "Distance or angle at factor 1, such as 90 deg.", {.required = true})
+          .key("factor", &JointDrive::factor, "Time function that multiplies `to`; 0 at the start.", {.required = true})
+          .check([](const JointDrive& drive, const Config& config) {
+            if (!drive.factor->has_continuous_rate())
+              config.at("factor").fail(
+                  "its rate may jump, which needs an infinite force; use a smooth_step, or a formula without kinks");
+          });
+  return s;
+}
+
 namespace {
 
+void check_drive(const JointInput& joint, const Config& config) {
+  const std::string unit = joint.turns() ? "rad" : "m";
+  for (const char* key : {"spring", "stop", "friction", "motor"})
+    if (config.has(key) && !joint.turns() && !joint.slides())
+      config.at(key).fail("is for joints of type hinge, slot, cylindrical and slider");
+  const auto require = [&](const char* section, const char* key, const QuantityValue& value) {
+    if (config.at(section).has(key)) value.require(unit, {config.at(section).at(key).where()});
+  };
+  if (joint.spring) require("spring", "rest", joint.spring->rest);
+  if (joint.stop) {
+    require("stop", "low", joint.stop->low.value_or(0));
+    require("stop", "high", joint.stop->high.value_or(0));
+    require("stop", "onset", joint.stop->onset.value_or(0));
+  }
+  if (!joint.motor) return;
+  require("motor", "to", joint.motor->to);
+  if (joint.stop || (joint.spring && joint.spring->stiffness > 0))
+    config.at("motor").fail("prescribes the coordinate: remove the spring and the stop");
+}
+
 void check_joint(const JointInput& joint, const Config& config) {
+  check_drive(joint, config);
   const bool is_ball = joint.type == JointType::ball;
   if (is_ball && !joint.at) config.fail("a ball joint needs `at`, the point of both bodies");
   if (is_ball && (joint.from || joint.to)) config.fail("a ball joint has no `from` and `to`; give `at`");
@@ -47,45 +130,159 @@ const Spec<JointInput>& JointInput::spec() {
                {.unit = "m"})
           .key("first", &J::first, "Nodes of the first body that hold the joint.", {.required = true})
           .key("second", &J::second, "Nodes of the second body that hold the joint; default: a point fixed in space.")
+          .key(
+              "spring", &J::spring,
+              "Spring and damping along the coordinate of the joint: the distance of the first body along the line, or "
+              "its angle about it by the right-hand rule, from the rest shape.")
+          .key("stop", &J::stop, "Limits of the coordinate.")
+          .key("friction", &J::friction, "Friction against changes of the coordinate.")
+          .key("motor", &J::motor, "The coordinate is prescribed in time.")
           .check(check_joint);
   return s;
 }
 
-Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid) const {
-  const auto held = [&](const JointEnd& end, const Vec3& point) {
-    const std::vector<int> nodes = selected_nodes(end, mesh);
+JointLaw JointInput::law() const {
+  JointLaw out;
+  if (spring) out.spring = {spring->stiffness, spring->damping, spring->rest};
+  if (stop) {
+    const double range = stop->low && stop->high ? *stop->high - *stop->low : turns() ? 1 : (*to - *from).norm();
+    out.stop = {stop->low, stop->high, stop->stiffness, stop->onset.value_or(0.01 * range)};
+  }
+  if (friction) out.friction = {friction->limit, friction->creep.value_or(turns() ? 0.01 : 1e-3)};
+  return out;
+}
+
+void JointInput::declare(Traits& traits) const {
+  if (motor) traits.loaded = traits.time_dependent = true;
+  if (motor) traits.conservative = false;
+  if (!law().acts()) return;
+  traits.linear = false;
+  if (stop) traits.smooth = false;
+  if (!law().dissipates()) return;
+  traits.damping_matrix = traits.dissipative = true;
+  traits.conservative = false;
+}
+
+namespace {
+
+// The points of the two bodies of a joint.
+class Ends {
+ public:
+  Ends(const JointInput& joint, const Mesh& mesh, const std::vector<RigidBody>& rigid) : joint_(joint), mesh_(mesh) {
+    first_ = end_of(joint.first, rigid);
+    if (joint.second) second_ = end_of(*joint.second, rigid);
+  }
+
+  bool are_rigid() const { return first_.body && (!joint_.second || second_.body); }
+  // Whether both ends hold the point.
+  bool can_hold(const Vec3& point) const {
+    return !found(first_, point).weights.empty() && (!joint_.second || !found(second_, point).weights.empty());
+  }
+
+  JointPoint first(const Vec3& point) const { return held(joint_.first, first_, point); }
+  JointPoint second(const Vec3& point) const {
+    return joint_.second ? held(*joint_.second, second_, point) : JointPoint{{}, point};
+  }
+
+ private:
+  struct End {
+    std::vector<int> nodes;
+    const RigidBody* body = nullptr;  // that has all the nodes; null for none
+  };
+
+  End end_of(const JointEnd& end, const std::vector<RigidBody>& rigid) const {
+    End out{selected_nodes(end, mesh_)};
     for (const RigidBody& body : rigid)
-      if (body.contains(nodes)) return body.point(mesh, point);
-    JointPoint found = joint_point(mesh, nodes, point);
-    if (found.weights.empty())
-      end.origin.fail(fmt::format(
+      if (body.contains(out.nodes)) out.body = &body;
+    return out;
+  }
+
+  JointPoint found(const End& end, const Vec3& point) const {
+    return end.body ? end.body->point(mesh_, point) : joint_point(mesh_, end.nodes, point);
+  }
+
+  JointPoint held(const JointEnd& given, const End& end, const Vec3& point) const {
+    JointPoint out = found(end, point);
+    if (out.weights.empty())
+      given.origin.fail(fmt::format(
           "the {} selected node{} cannot hold the point [{:.6g}, {:.6g}, {:.6g}]: nodes of a plane hold points of this "
           "plane, a node holds its own place only; move the point, or select nodes on all sides of it",
-          nodes.size(), nodes.size() == 1 ? "" : "s", point[0], point[1], point[2]));
-    return found;
+          end.nodes.size(), end.nodes.size() == 1 ? "" : "s", point[0], point[1], point[2]));
+    return out;
+  }
+
+  const JointInput& joint_;
+  const Mesh& mesh_;
+  End first_, second_;
+};
+
+// The joint's line and two directions at right angles to it and to each other, as long as the line.
+struct Directions {
+  Vec3 line, side, other;
+};
+
+Directions directions(const JointInput& joint) {
+  const Vec3 line = *joint.to - *joint.from, side = line.norm() * line.unitOrthogonal();
+  return {line, side, line.normalized().cross(side)};
+}
+
+// Two points coincide. Two rigid bodies keep the distance of both points by themselves: then the second point is held
+// across the line only.
+void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
+  const Vec3 from = *joint.from, to = *joint.to;
+  const auto [line, side, other] = directions(joint);
+  const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
+  const auto across = [&](const Vec3& offset) {
+    return JointEquation::across(ends.first(to), ends.second(from), ends.second(from + offset));
   };
-  const auto of_second = [&](const Vec3& point) { return second ? held(*second, point) : JointPoint{{}, point}; };
-  const auto coincide = [&](const Vec3& point) {
-    return JointEquation::coincide(held(first, point), of_second(point));
-  };
+  if (ends.are_rigid()) out.equations = {coincide(from), across(side), across(other)};
+  else out.equations = {coincide(from), coincide(to)};
+  const bool is_used = joint.motor || joint.law().acts();
+  if (!is_used && !(ends.can_hold(from + side) && ends.can_hold(from + other))) return;
+  out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
+                                            ends.second(from + side), ends.second(from + other));
+}
+
+void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
+  const Vec3 from = *joint.from;
+  const auto [line, side, other] = directions(joint);
   // `from + along` and `from + offset` are points of the first and of the second body.
   const auto across = [&](const Vec3& along, const Vec3& offset) {
-    return JointEquation::across(held(first, *from + along), of_second(*from), of_second(*from + offset));
+    return JointEquation::across(ends.first(from + along), ends.second(from), ends.second(from + offset));
   };
-  switch (type) {
-    case JointType::ball: return {name, origin.where, {coincide(*at)}};
-    case JointType::hinge: return {name, origin.where, {coincide(*from), coincide(*to)}};
-    case JointType::distance:
-      return {name, origin.where, {JointEquation::distance(held(first, *from), of_second(*to))}};
-    default: break;
+  const Vec3 here = Vec3::Zero();
+  out.equations = {across(here, side), across(here, other)};
+  if (joint.type != JointType::slot) {
+    out.equations.push_back(across(line, side));
+    out.equations.push_back(across(line, other));
   }
-  const Vec3 line = *to - *from, side = line.norm() * line.unitOrthogonal(), other = line.normalized().cross(side);
-  const Vec3 start = Vec3::Zero();
-  Joint joint{name, origin.where, {across(start, side), across(start, other)}};
-  if (type == JointType::slot) return joint;
-  joint.equations.push_back(across(line, side));
-  joint.equations.push_back(across(line, other));
-  if (type == JointType::slider) joint.equations.push_back(across(side, other));
+  if (joint.type == JointType::slider) out.equations.push_back(across(side, other));
+  out.coordinate = JointCoordinate::sliding(ends.first(from), ends.second(from), ends.second(*joint.to));
+}
+
+JointEquation driven(const JointInput& joint, const Ends& ends, JointMotor motor) {
+  const Vec3 from = *joint.from;
+  if (joint.slides())
+    return JointEquation::slide(ends.first(from), ends.second(from), ends.second(*joint.to), std::move(motor));
+  const auto [line, side, other] = directions(joint);
+  return JointEquation::turn(ends.first(from + side), ends.second(from), ends.second(from + other),
+                             ends.second(from + side), std::move(motor));
+}
+
+}  // namespace
+
+Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid, double start, double end) const {
+  const Ends ends(*this, mesh, rigid);
+  Joint joint{name, origin.where, {}};
+  if (type == JointType::ball) joint.equations = {JointEquation::coincide(ends.first(*at), ends.second(*at))};
+  else if (type == JointType::distance)
+    joint.equations = {JointEquation::distance(ends.first(*from), ends.second(*to))};
+  else if (turns()) add_hinge(*this, ends, joint);
+  else add_slide(*this, ends, joint);
+  if (motor) {
+    const auto resolved = motor->factor->over(start, end);
+    joint.equations.push_back(driven(*this, ends, {motor->to, resolved ? resolved : motor->factor}));
+  }
   return joint;
 }
 

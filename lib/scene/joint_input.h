@@ -2,14 +2,18 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/config/quantity_value.h"
 #include "lib/fem/joints.h"
 #include "lib/fem/rigid_body.h"
+#include "lib/fem/terms/joint_forces.h"
 #include "lib/mesh/selection.h"
+#include "lib/ode/model.h"
 
 namespace orthodyn {
 
@@ -33,6 +37,30 @@ struct JointEnd : Selection {
   static const Spec<JointEnd>& spec();
 };
 
+// Spring, stops, friction and motor of a joint along its coordinate: lib/fem/terms/joint_forces.h, JointMotor. Values
+// in m and N, or in rad and N m.
+struct JointSpring {
+  double stiffness = 0, damping = 0;
+  QuantityValue rest;
+  static const Spec<JointSpring>& spec();
+};
+struct JointStop {
+  std::optional<QuantityValue> low, high, onset;
+  double stiffness = 0;
+  static const Spec<JointStop>& spec();
+};
+struct JointFriction {
+  double limit = 0;
+  std::optional<double> creep;
+  static const Spec<JointFriction>& spec();
+};
+struct JointDrive {
+  QuantityValue to;
+  std::shared_ptr<const TimeFunction> factor;
+  SourceLocation origin;
+  static const Spec<JointDrive>& spec();
+};
+
 struct JointInput {
   JointType type = JointType::ball;
   std::string name;
@@ -40,11 +68,21 @@ struct JointInput {
   std::optional<Vec3> from, to;  // m, ends of a hinge's pin, of a rod, or two points of a line
   JointEnd first;
   std::optional<JointEnd> second;  // empty: a point in space
+  std::optional<JointSpring> spring;
+  std::optional<JointStop> stop;
+  std::optional<JointFriction> friction;
+  std::optional<JointDrive> motor;
   SourceLocation origin;
   static const Spec<JointInput>& spec();
 
-  // Nodes of a rigid body hold any point. Throws ConfigError if a point cannot be held by the selected nodes.
-  Joint on(const Mesh& mesh, const std::vector<RigidBody>& rigid) const;
+  bool turns() const { return type == JointType::hinge; }
+  bool slides() const { return type == JointType::slot || type == JointType::cylindrical || type == JointType::slider; }
+  JointLaw law() const;
+  void declare(Traits& traits) const;
+
+  // From `start` to `end` (s). Nodes of a rigid body hold any point. Throws ConfigError if a point cannot be held
+  // by the selected nodes.
+  Joint on(const Mesh& mesh, const std::vector<RigidBody>& rigid, double start, double end) const;
 };
 
 }  // namespace orthodyn
