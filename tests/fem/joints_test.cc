@@ -39,6 +39,15 @@ const std::string kSlider = "{type: slider, name: rail, from: [0.5, 0.1, 0.1], t
 const std::string kCylindrical =
     "{type: cylindrical, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], " + kAllNodes;
 
+const std::string kMotor = "{to: 0.7, factor: {type: expression, formula: 'sin(3*t)'}}";
+const std::string kDrivenSlider =
+    "{type: slider, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], motor: " + kMotor + ", " + kAllNodes;
+const std::string kDrivenHinge =
+    "{type: hinge, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], motor: " + kMotor + ", " + kAllNodes;
+const std::string kForces =
+    "spring: {stiffness: 3, damping: 0.2, rest: 0.1}, stop: {low: -0.01, high: 0.02, onset: 0.1, stiffness: 8}, "
+    "friction: {limit: 0.5, creep: 0.3}";
+
 TEST(Bodies, ArePlacedAndNamed) {
   const BuiltTestScene s(two_bars(kRod));
   const Mesh& mesh = s.mesh();
@@ -96,46 +105,127 @@ struct Path {
 };
 
 class EachJoint : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Joints, EachJoint, testing::Values(kRod, kSlider, kCylindrical));
+INSTANTIATE_TEST_SUITE_P(Joints, EachJoint, testing::Values(kRod, kSlider, kCylindrical, kDrivenSlider, kDrivenHinge));
 
 TEST_P(EachJoint, HasItsDerivatives) {
+  constexpr double kTime = 0.4;
   const BuiltTestScene s(two_bars(GetParam()));
   const Path path(s);
   const Constraints& constraints = path.constraints;
   const auto values = [&](double t) {
     Vector g(constraints.size());
-    constraints.values(t, path.at(t), g);
+    constraints.values(kTime + t, path.at(t), g);
     return g;
   };
   const auto rates = [&](double t) {
     Vector g(constraints.size());
-    constraints.rates(t, path.at(t), path.rate(t), g);
+    constraints.rates(kTime + t, path.at(t), path.rate(t), g);
     return g;
   };
   expect_derivative(values, rates(0));
-  Vector c(constraints.size());
-  constraints.curvature(0, path.q, path.v, c);
-  const Eigen::SparseMatrix<double> G = constraints.jacobian(0, path.q);
-  EXPECT_LE((G.transpose() * path.v - rates(0)).norm(), 1e-14);
+  Vector c(constraints.size()), of_time(constraints.size());
+  constraints.curvature(kTime, path.q, path.v, c);
+  const Eigen::SparseMatrix<double> G = constraints.jacobian(kTime, path.q);
+  constraints.rates(kTime, path.q, s.zero(), of_time);
+  EXPECT_LE((G.transpose() * path.v + of_time - rates(0)).norm(), 1e-14);
+  EXPECT_EQ(of_time.norm() > 0, s.model().parts().joints[0].motor() != nullptr);
   expect_derivative(rates, G.transpose() * path.a + c);
+}
+
+void expect_no_resultant(const NodalVector& x, const NodalVector& f) {
+  EXPECT_GE(f.norm(), 0.1);
+  EXPECT_LE(f.rowwise().sum().norm(), 1e-13);
+  Vec3 torque = Vec3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vec3(x.col(i)).cross(Vec3(f.col(i)));
+  EXPECT_LE(torque.norm(), 1e-13);
 }
 
 // The forces of a joint have no resultant and no torque about any point.
 TEST_P(EachJoint, HasForcesThatCancel) {
   const BuiltTestScene s(two_bars(GetParam()));
   const Path path(s);
-  const NodalVector x = s.positions(path.q);
-  const NodalVector f =
-      joint_forces(s.model().parts(), x - *s.model().parts().rest, Vector::Constant(path.constraints.size(), 2));
-  EXPECT_GE(f.norm(), 0.1);
-  EXPECT_LE(f.rowwise().sum().norm(), 1e-14);
-  Vec3 torque = Vec3::Zero();
-  for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vec3(x.col(i)).cross(Vec3(f.col(i)));
-  EXPECT_LE(torque.norm(), 1e-14);
+  const NodalExpansion nodal(s.model().parts(), 0.4, path.q, path.v);
+  const NodalVector f = joint_forces(s.model().parts(), nodal, Vector::Constant(path.constraints.size(), 2));
+  expect_no_resultant(nodal.x, f);
   Vector on_dofs(s.size());
   s.model().parts().dofs->restrict_to(f, on_dofs);
-  EXPECT_LE((on_dofs + path.constraints.jacobian(0, path.q) * Vector::Constant(path.constraints.size(), 2)).norm(),
-            1e-14);
+  EXPECT_LE((on_dofs + path.constraints.jacobian(0.4, path.q) * Vector::Constant(path.constraints.size(), 2)).norm(),
+            1e-13);
+}
+
+// Springs, stops and friction along the coordinate of a hinge and of a slider.
+class JointForces : public testing::TestWithParam<std::string> {
+ protected:
+  BuiltTestScene s{two_bars(fmt::format("{{type: {}, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], {}, {}",
+                                        GetParam(), kForces, kAllNodes))};
+  const Term& term = *s.model().parts().loads.back();
+  Path path{s};
+
+  Vector force(double t, bool moving) const {
+    const NodalExpansion nodal(s.model().parts(), 0, path.at(t), moving ? path.rate(t) : s.zero());
+    NodalVector f = NodalVector::Zero(3, nodal.u.cols());
+    term.add_force(nodal.state(), f);
+    Vector out(s.size());
+    s.model().parts().dofs->restrict_forces_to(f, out);
+    return out;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Types, JointForces, testing::Values("hinge", "slider", "cylindrical"));
+
+TEST_P(JointForces, AreTheGradientOfTheirEnergy) {
+  const auto energy = [&](double t) {
+    return one(term.energy(NodalExpansion(s.model().parts(), 0, path.at(t), s.zero()).state()));
+  };
+  EXPECT_GE(energy(0)[0], 1e-3);
+  expect_derivative(energy, one(-force(0, false).dot(path.v)));
+}
+
+TEST_P(JointForces, HaveTheirTangent) {
+  const auto tangent = [&](bool of_velocity) {
+    std::vector<double> K(s.model().pattern().row.size(), 0), D(K.size(), 0);
+    const NodalExpansion nodal(s.model().parts(), 0, path.q, of_velocity ? path.v : s.zero());
+    term.add_tangent(nodal.state(), TangentKind::exact, K.data(), D.data());
+    Vector out(s.size());
+    s.model().pattern().multiply((of_velocity ? D : K).data(), of_velocity ? path.a : path.v, out);
+    return out;
+  };
+  expect_derivative([&](double t) { return force(t, false); }, -tangent(false));
+  const auto by_velocity = [&](double t) {
+    Vector f(s.size());
+    const NodalExpansion nodal(s.model().parts(), 0, path.q, path.rate(t));
+    NodalVector all = NodalVector::Zero(3, nodal.u.cols());
+    term.add_force(nodal.state(), all);
+    s.model().parts().dofs->restrict_forces_to(all, f);
+    return f;
+  };
+  expect_derivative(by_velocity, -tangent(true));
+}
+
+TEST_P(JointForces, CancelAndDissipate) {
+  const NodalExpansion nodal(s.model().parts(), 0, path.q, path.v);
+  NodalVector f = NodalVector::Zero(3, nodal.u.cols());
+  term.add_force(nodal.state(), f);
+  expect_no_resultant(nodal.x, f);
+  const double power = (force(0, true) - force(0, false)).dot(path.v);
+  EXPECT_GE(-power, 1e-3);
+  EXPECT_NEAR(term.dissipation(nodal.state()), -power, 1e-13);
+}
+
+// The angle of a hinge is that of a rotation about its line, by the right-hand rule.
+TEST(JointCoordinates, MeasureAngleAndDistance) {
+  for (const double value : {0.3, -2.9}) {
+    const Vec3 from(0.5, 0.1, 0.1), line = Vec3(0.7, 0.4, 0).normalized();
+    const Mat3 R = Eigen::AngleAxisd(value, line).toRotationMatrix();
+    const auto moved = [&](const char* type, auto&& u) {
+      const BuiltTestScene s(two_bars(
+          fmt::format("{{type: {}, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], {}", type, kAllNodes)));
+      State state = s.built.initial;
+      state.q = s.dofs([&](const Vec3& X) -> Vec3 { return X[0] < 1.05 ? u(X) : Vec3::Zero(); });
+      return s.model().evaluate("coordinate.rail", state)[0];
+    };
+    EXPECT_NEAR(moved("hinge", [&](const Vec3& X) -> Vec3 { return R * (X - from) + from - X; }), value, 1e-13);
+    EXPECT_NEAR(moved("slider", [&](const Vec3&) -> Vec3 { return value * line; }), value, 1e-13);
+  }
 }
 
 TEST(Joints, StartWithVelocitiesThatFit) {
@@ -174,6 +264,13 @@ TEST(Joints, AreRefusedWithTheReason) {
   EXPECT_THAT(message("{type: ball, name: a, " + pin, "initial: {displacement_field: [0.1, 0, 0]}"),
               HasSubstr("apart"));
   EXPECT_THAT(message("{type: ball, name: a, " + pin + ", {type: ball, name: b, " + pin), HasSubstr("joints."));
+  EXPECT_THAT(message("{type: ball, name: a, friction: {limit: 1}, " + pin), HasSubstr("hinge, slot"));
+  const std::string rail = "{type: slot, name: a, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], ";
+  EXPECT_THAT(message(rail + "stop: {low: 1 deg, stiffness: 1}, " + kAllNodes), HasSubstr("deg"));
+  EXPECT_THAT(message(rail + "stop: {low: 0.1, stiffness: 1}, " + kAllNodes), HasSubstr("rest shape"));
+  EXPECT_THAT(message(rail + "stop: {stiffness: 1}, " + kAllNodes), HasSubstr("low"));
+  EXPECT_THAT(message(rail + "motor: " + kMotor + ", spring: {stiffness: 1}, " + kAllNodes), HasSubstr("prescribes"));
+  EXPECT_THAT(message(rail + "motor: {to: 1, factor: {type: ramp, end: 1}}, " + kAllNodes), HasSubstr("smooth_step"));
 }
 
 TEST(Joints, VelocitiesThatTheyForbidAreTold) {

@@ -1,0 +1,219 @@
+// Motions of rigid bodies and of driven joints, against exact solutions.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "lib/ode/constraints.h"
+#include "lib/simulation/output/balance.h"
+#include "tests/problems/running.h"
+
+namespace orthodyn::rigid_motion_test {
+namespace {
+
+const double kPi = std::acos(-1.0);
+
+struct Motion {
+  State last;
+  double drift = 0;  // of the energy balance, J
+};
+
+Motion motion_of(const BuiltTestScene& s, const std::function<void(const State&)>& at_each_step = {}) {
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+  EnergyMeter meter(s.model(), *integrator);
+  Watch watch([&](const State& state) {
+    if (at_each_step) at_each_step(state);
+  });
+  const Outcome outcome =
+      run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&meter, &watch}, {false});
+  EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+  return {outcome.last, meter.drift()};
+}
+
+// A rigid box of 1 m x 0.4 m x 0.2 m and 40 kg about the origin.
+std::string box(const std::string& more, double rtol) {
+  return fmt::format(R"(
+mesh: {{type: box, size: [1, 0.4, 0.2], cells: [2, 1, 1], order: 1, origin: [-0.5, -0.2, -0.1]}}
+materials: {{m: {{type: isotropic, density: 500, young: 1e4, nu: 0.3}}}}
+regions: {{all: {{material: m, rigid: true}}}}
+integrator: {{type: ida_bdf, rtol: {}}}
+{}
+)",
+                     rtol, more);
+}
+
+// Rotation R and angular momentum L about the fixed point, by RK4 with many steps: R' = [J^-1 L] R and L' = torque(R),
+// with J = R inertia R^T.
+struct Turning {
+  Mat3 R = Mat3::Identity();
+  Vec3 L = Vec3::Zero();
+};
+
+Turning exact_turning(const Vec3& inertia, const Vec3& spin, double end,
+                      const std::function<Vec3(const Mat3&)>& torque) {
+  const int steps = 20000;
+  const double h = end / steps;
+  const auto rate = [&](const Turning& x) {
+    const Vec3 w = x.R * (x.R.transpose() * x.L).cwiseQuotient(inertia);
+    Mat3 cross;
+    cross << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+    return Turning{cross * x.R, torque(x.R)};
+  };
+  const auto plus = [](const Turning& x, double s, const Turning& k) { return Turning{x.R + s * k.R, x.L + s * k.L}; };
+  Turning x{Mat3::Identity(), inertia.cwiseProduct(spin)};
+  for (int i = 0; i < steps; ++i) {
+    const Turning k1 = rate(x), k2 = rate(plus(x, h / 2, k1)), k3 = rate(plus(x, h / 2, k2)), k4 = rate(plus(x, h, k3));
+    x = plus(x, h / 6, k1);
+    x = plus(x, h / 3, k2);
+    x = plus(x, h / 3, k3);
+    x = plus(x, h / 6, k4);
+  }
+  return x;
+}
+
+// Largest distance of nodes from R X.
+double error_of(const BuiltTestScene& s, const Vector& q, const Mat3& R) {
+  return (s.positions(q) - R * *s.model().parts().rest).colwise().norm().maxCoeff();
+}
+
+const Vec3 kInertia = 40.0 / 12 * Vec3(0.4 * 0.4 + 0.2 * 0.2, 1 + 0.2 * 0.2, 1 + 0.4 * 0.4);
+
+// About its middle axis, a free body turns over (Dzhanibekov).
+TEST(RigidBodies, TurnOverAboutTheMiddleAxis) {
+  const Vec3 spin(0.02, 4, 0);
+  const double end = 4;
+  const Turning exact = exact_turning(kInertia, spin, end, [](const Mat3&) -> Vec3 { return Vec3::Zero(); });
+  ASSERT_LE(exact.R(1, 1), 0.9);  // it does turn over
+  double last = 1;
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(box(
+        fmt::format("initial: {{spin: [{}, {}, {}]}}\ntime: {{end: {}}}", spin[0], spin[1], spin[2], end),
+        rtol));
+    const Motion motion = motion_of(s);
+    const double error = error_of(s, motion.last.q, exact.R);
+    EXPECT_LE(error, 3e3 * rtol);
+    EXPECT_LE(error, 0.1 * last);
+    last = error;
+    const auto L = s.model().evaluate("momentum.angular", motion.last);
+    EXPECT_LE((Vec3(L[0], L[1], L[2]) - kInertia.cwiseProduct(spin)).norm(),
+              300 * rtol * kInertia.cwiseProduct(spin).norm());
+    EXPECT_LE(std::abs(motion.drift), 300 * rtol * 0.5 * spin.dot(kInertia.cwiseProduct(spin)));
+  }
+}
+
+// A heavy top: a square bar that spins about a ball joint at one end.
+TEST(RigidBodies, PrecessAsAHeavyTop) {
+  const double end = 1.5, mass = 40, length = 1;
+  const Vec3 spin(20, 0, 0), centre(length / 2, 0, 0);
+  Vec3 inertia = mass / 12 * Vec3(2 * 0.3 * 0.3, 1 + 0.09, 1 + 0.09);
+  inertia += mass * 0.25 * Vec3(0, 1, 1);
+  const Turning exact = exact_turning(
+      inertia, spin, end, [&](const Mat3& R) -> Vec3 { return (R * centre).cross(Vec3(0, 0, -10 * mass)); });
+  ASSERT_GE((exact.R.col(0) - Vec3::UnitX()).norm(), 0.5);
+  double last = 1;
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh: {{type: box, size: [1, 0.3, 0.3], cells: [2, 1, 1], order: 1, origin: [0, -0.15, -0.15]}}
+materials: {{m: {{type: isotropic, density: {}, young: 1e4, nu: 0.3}}}}
+regions: {{all: {{material: m, rigid: true}}}}
+joints: [{{type: ball, name: foot, at: [0, 0, 0], first: {{region: body}}}}]
+gravity: [0, 0, -10]
+initial: {{spin: [20, 0, 0], center: [0, 0, 0]}}
+time: {{end: {}}}
+integrator: {{type: ida_bdf, rtol: {}}}
+)",
+                                       mass / 0.09, end, rtol));
+    const Motion motion = motion_of(s);
+    const double error = error_of(s, motion.last.q, exact.R);
+    EXPECT_LE(error, 1e4 * rtol);
+    EXPECT_LE(error, 0.1 * last);
+    last = error;
+  }
+}
+
+// A motor turns the box about a hinge at its end by a smooth step of 200 degrees: torque = J th'' + m g l cos th.
+TEST(Motors, TurnWithTheExactTorque) {
+  const BuiltTestScene s(box(R"(
+joints:
+  - type: hinge
+    name: arm
+    from: [-0.5, 0, 0]
+    to: [-0.5, -1, 0]
+    first: {region: body}
+    motor: {to: 200 deg, factor: {type: expression, formula: '0.5*(1 - cos(pi*t))'}}
+gravity: [0, 0, -10]
+time: {end: 0.8}
+)",
+                             1e-7));
+  const Motion motion = motion_of(s);
+  const double A = 200 * kPi / 180 / 2, angle = A * (1 - std::cos(0.8 * kPi));
+  const double acceleration = A * kPi * kPi * std::cos(0.8 * kPi);
+  const Mat3 R = Eigen::AngleAxisd(angle, -Vec3::UnitY()).toRotationMatrix();
+  const Vec3 foot(-0.5, 0, 0);
+  const NodalVector x = s.positions(motion.last.q);
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    EXPECT_LE((x.col(i) - (R * (s.model().parts().rest->col(i) - foot) + foot)).norm(), 1e-5);
+  const double torque = (kInertia[1] + 40 * 0.25) * acceleration + 40 * 10 * 0.5 * std::cos(angle);
+  EXPECT_NEAR(s.model().evaluate("motor.arm", motion.last)[0], torque, 1e-3 * std::abs(torque));
+  EXPECT_NEAR(s.model().evaluate("coordinate.arm", motion.last)[0], std::remainder(angle, 2 * kPi), 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * 40 * 10 * 0.5);  // the work of the motor is in the balance
+}
+
+TEST(Motors, PushWithTheExactForce) {
+  const BuiltTestScene s(box(R"(
+joints:
+  - type: slider
+    name: rail
+    from: [0, 0, 0]
+    to: [0, 1, 0]
+    first: {region: body}
+    motor: {to: 0.5, factor: {type: expression, formula: 't^2'}}
+time: {end: 1}
+)",
+                             1e-6));
+  const Motion motion = motion_of(s);
+  EXPECT_NEAR(s.model().evaluate("motor.rail", motion.last)[0], 40, 1e-3 * 40);
+  EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], 0.5, 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * 20);
+}
+
+std::string sliding(const std::string& forces, double end, double rtol) {
+  return box(fmt::format("joints: [{{type: slider, name: rail, from: [0, 0, 0], to: [0, 1, 0], first: {{region: "
+                         "body}}, {}}}]\ninitial: {{velocity: [0, 2, 0]}}\ntime: {{end: {}}}",
+                         forces, end),
+             rtol);
+}
+
+// The box hits a stop at 0.5 m: it turns back at the depth v sqrt(m/k) (beyond the onset), and loses no energy.
+TEST(Stops, ThrowBackWithoutLoss) {
+  double highest = 0;
+  const BuiltTestScene s(sliding("stop: {high: 0.5, stiffness: 1e5, onset: 1e-4}", 0.6, 1e-7));
+  const Motion motion = motion_of(
+      s, [&](const State& state) { highest = std::max(highest, s.model().evaluate("coordinate.rail", state)[0]); });
+  EXPECT_NEAR(s.model().evaluate("momentum.linear", motion.last)[1], -80, 80 * 1e-4);
+  const double depth = 2 * std::sqrt(40 / 1e5);
+  EXPECT_NEAR(highest, 0.5 + depth, 0.02 * depth);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * 80);
+}
+
+// Friction F brings the box to rest after v^2/(2 F/m); its heat is the kinetic energy.
+TEST(Friction, OfAJointStopsTheBox) {
+  const BuiltTestScene s(sliding("friction: {limit: 80, creep: 1e-3}", 2, 1e-6));
+  const Motion motion = motion_of(s);
+  EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], 1, 5e-3);
+  EXPECT_LE(s.model().evaluate("energy.kinetic", motion.last)[0], 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-3 * 80);
+}
+
+// A damped spring: x(t) = v/w exp(-d t) sin(w t) with d = 20/(2 m) and w^2 = k/m - d^2.
+TEST(Springs, OfAJointSwingExactly) {
+  const BuiltTestScene s(sliding("spring: {stiffness: 1000, damping: 20}", 1.3, 1e-7));
+  const Motion motion = motion_of(s);
+  const double d = 20 / 80.0, w = std::sqrt(25 - d * d), exact = 2 / w * std::exp(-1.3 * d) * std::sin(1.3 * w);
+  EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], exact, 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * 80);
+}
+
+}  // namespace
+}  // namespace orthodyn::rigid_motion_test
