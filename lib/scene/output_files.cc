@@ -118,8 +118,10 @@ const Spec<Output>& Output::spec() {
                "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest; or of a probe: "
                "PROBE.displacement.z.largest. Those of a probe are found between all steps, others at the rows of "
                "the history.")
-          .key("reactions", &Output::reactions,
-               "Record in probes.csv the force and torque that every clamp and motion exerts on the body.")
+          .key(
+              "reactions", &Output::reactions,
+              "Record in probes.csv the force and torque that every clamp and motion exerts on the body, the forces of "
+              "joints, motors and ties, and the coordinates of joints.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("accumulated_error", &Output::accumulated_error,
                "After runs of about 500 steps or more, estimate the accumulated error of the steps by integrating a "

@@ -4,6 +4,25 @@
 
 namespace orthodyn {
 
+namespace {
+
+// Forces of supports, joints and ties, and the coordinates of joints.
+std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
+  std::vector<std::string> names;
+  for (const Support& support : parts.supports)
+    for (const char* what : {"reaction.", "torque."}) names.push_back(what + support.name);
+  for (const Joint& joint : parts.joints) {
+    if (joint.of == Joint::Of::rigid_body) continue;
+    names.push_back("joint." + joint.name);
+    if (joint.coordinate) names.push_back("coordinate." + joint.name);
+    if (joint.motor()) names.push_back("motor." + joint.name);
+  }
+  for (const NamedTie& tie : parts.ties) names.push_back("tie." + tie.name);
+  return names;
+}
+
+}  // namespace
+
 std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model) {
   std::vector<ProbeColumn> columns;
   for (const auto& [name, probe] : scene.output.probes)
@@ -11,8 +30,7 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
   for (const auto& [name, gauge] : scene.output.gauges)
     columns.push_back({name, 0, "", PlacedGauge(gauge, model.parts().mesh)});
   if (scene.output.reactions)
-    for (const auto& support : model.parts().supports)
-      for (const char* what : {"reaction.", "torque."}) columns.push_back({"", 0, what + support.name});
+    for (const std::string& name : reactions_of(model.parts())) columns.push_back({"", 0, name});
   return columns;
 }
 
