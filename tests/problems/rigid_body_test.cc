@@ -87,9 +87,8 @@ TEST(RigidBodies, TurnOverAboutTheMiddleAxis) {
   ASSERT_LE(exact.R(1, 1), 0.9);  // it does turn over
   double last = 1;
   for (const double rtol : {1e-5, 1e-7}) {
-    const BuiltTestScene s(box(
-        fmt::format("initial: {{spin: [{}, {}, {}]}}\ntime: {{end: {}}}", spin[0], spin[1], spin[2], end),
-        rtol));
+    const BuiltTestScene s(
+        box(fmt::format("initial: {{spin: [{}, {}, {}]}}\ntime: {{end: {}}}", spin[0], spin[1], spin[2], end), rtol));
     const Motion motion = motion_of(s);
     const double error = error_of(s, motion.last.q, exact.R);
     EXPECT_LE(error, 3e3 * rtol);
@@ -176,6 +175,40 @@ time: {end: 1}
   EXPECT_NEAR(s.model().evaluate("motor.rail", motion.last)[0], 40, 1e-3 * 40);
   EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], 0.5, 1e-5);
   EXPECT_LE(std::abs(motion.drift), 1e-4 * 20);
+}
+
+// A motor turns the crank of a slider-crank: the slider is at r cos(th) + sqrt(l^2 - r^2 sin^2(th)).
+TEST(Mechanisms, OfSliderAndCrankMoveExactly) {
+  const BuiltTestScene s(R"(
+mesh:
+  type: bodies
+  bodies:
+    crank: {mesh: {type: box, size: [0.22, 0.02, 0.02], cells: [1, 1, 1], order: 1, origin: [-0.01, -0.01, -0.01]}}
+    rod: {mesh: {type: box, size: [0.52, 0.02, 0.02], cells: [1, 1, 1], order: 1, origin: [0.19, 0.02, -0.01]}}
+    block: {mesh: {type: box, size: [0.1, 0.06, 0.06], cells: [1, 1, 1], order: 1, origin: [0.65, -0.01, -0.03]}}
+materials: {steel: {type: isotropic, density: 7800, young: 2e11, nu: 0.3}}
+regions: {all: {material: steel, rigid: true}}
+joints:
+  - type: hinge
+    name: bearing
+    from: [0, 0, 0]
+    to: [0, 0.02, 0]
+    first: {region: crank}
+    motor: {to: 1 rad, factor: {type: expression, formula: '10*t'}}
+  - {type: hinge, name: pin, from: [0.2, 0.02, 0], to: [0.2, 0.04, 0], first: {region: rod}, second: {region: crank}}
+  - {type: ball, name: wrist, at: [0.7, 0.02, 0], first: {region: block}, second: {region: rod}}
+  - {type: cylindrical, name: rail, from: [0.7, 0.02, 0], to: [0.8, 0.02, 0], first: {region: block}}
+initial: {velocity_field: ['0', '0', 'x < 0.211 ? -10*x : (x < 0.711 ? -4*(0.7 - x) : 0)']}
+time: {end: 1}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)");
+  double worst = 0;
+  motion_of(s, [&](const State& state) {
+    const double angle = 10 * state.t, lift = 0.2 * std::sin(angle);
+    const double exact = 0.2 * std::cos(angle) + std::sqrt(0.25 - lift * lift) - 0.7;
+    worst = std::max(worst, std::abs(s.model().evaluate("coordinate.rail", state)[0] - exact));
+  });
+  EXPECT_LE(worst, 1e-5);
 }
 
 std::string sliding(const std::string& forces, double end, double rtol) {
