@@ -69,9 +69,15 @@ const Spec<Region>& Region::spec() {
                "Factors of the stiffness on a grid over the region, for bodies that are softer in "
                "places. They can be found by a fit.")
           .check([](const Region& region, const Config& config) {
-            for (const char* key :
-                 {"stiffness_damping", "kinematics", "law", "integration", "formulation", "stiffness_factors", "axes"})
-              if (region.rigid && config.has(key)) config.at(key).fail("has no effect in a rigid region; remove it");
+            const std::pair<const char*, bool> elastic[] = {
+                {"stiffness_damping", region.stiffness_damping.has_value()},
+                {"kinematics", region.kinematics.has_value()},
+                {"law", region.law != ElasticLaw::corotational},
+                {"integration", region.integration != Integration::automatic},
+                {"formulation", region.formulation != Formulation::automatic},
+                {"stiffness_factors", region.stiffness_factors.has_value()}};
+            for (const auto& [key, is_given] : elastic)
+              if (region.rigid && is_given) config.at(key).fail("has no effect in a rigid region; remove it");
             if (region.stiffness_factors && !region.layup.empty())
               config.at("stiffness_factors").fail("is not available for a region with a layup");
             if (region.law == ElasticLaw::neo_hookean && region.kinematics)
