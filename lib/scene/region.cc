@@ -127,15 +127,16 @@ void check_kinematics(const Config& config, const Scene& scene) {
 
 // Lumped masses change the inertia of a rigid body.
 void choose_mass(const Config& config, Scene& scene) {
-  for (const auto& [name, region] : scene.regions) {
-    if (!region.rigid) continue;
-    if (config.has("mass") && scene.mass == MassKind::lumped)
-      config.at("mass").fail(fmt::format(
-          "lumped changes the inertia of the rigid region '{}'; remove the key: scenes with rigid regions have a "
-          "consistent mass",
-          name));
-    scene.mass = MassKind::consistent;
-  }
+  const auto rigid =
+      std::find_if(scene.regions.begin(), scene.regions.end(), [](const auto& entry) { return entry.second.rigid; });
+  const bool has_rigid = rigid != scene.regions.end();
+  if (has_rigid && scene.given_mass == MassKind::lumped)
+    config.at("mass").fail(
+        fmt::format("lumped changes the inertia of the rigid region '{}'; remove the key: scenes with rigid regions "
+                    "have a consistent mass",
+                    rigid->first));
+  scene.mass = scene.given_mass.value_or(has_rigid ? MassKind::consistent : MassKind::lumped);
+  if (!scene.given_mass) config.fill_text("mass", has_rigid ? "consistent" : "lumped");
 }
 
 }  // namespace

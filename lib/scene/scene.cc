@@ -78,7 +78,7 @@ const Spec<Scene>& Scene::spec() {
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only material "
                "everywhere.")
           .key("elasticity", &Scene::elasticity, "Kinematics of the elastic law.")
-          .key("mass", &Scene::mass, "Mass matrix.")
+          .key("mass", &Scene::given_mass, "Mass matrix; default lumped, in scenes with rigid regions consistent.")
           .key("damping", &Scene::damping, "Rayleigh damping.")
           .key("moisture", &Scene::moisture,
                "Change of the moisture content, by which materials with `expansion: {moisture: ...}` swell or shrink.")

@@ -92,7 +92,8 @@ struct Scene {
   Named<std::shared_ptr<const Material>> materials;
   Named<Region> regions;
   Elasticity elasticity;
-  MassKind mass = MassKind::lumped;
+  std::optional<MassKind> given_mass;  // empty: by the regions
+  MassKind mass = MassKind::lumped;    // consistent with rigid regions
   std::optional<Damping> damping;
   std::optional<StateChange> moisture, temperature;
   std::optional<Activation> activation;
