@@ -123,8 +123,7 @@ time: {end: 1}
 TEST(RigidBodies, TakeTiesAsTheSecondSurface) {
   const BuiltTestScene s(box_and_block("ties: [{first: block.z0, second: box.z1}]", "[1, 0.4, 0.2]", 0.2));
   EXPECT_EQ(s.size(), 3 * 6 + 12);
-  EXPECT_THAT(message("ties: [{first: box.z1, second: block.z0, reach: 0.1}]"),
-              testing::HasSubstr("rigid region 'box'"));
+  EXPECT_THAT(message("ties: [{first: box.z1, second: block.z0}]", 0.2), testing::HasSubstr("rigid region 'box'"));
 }
 
 // A joint of rigid bodies holds any point.

@@ -52,7 +52,7 @@ Motion motion_of(const BuiltTestScene& s) {
   const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
   EnergyMeter meter(s.model(), *integrator);
   Motion out;
-  Watch watch([&](const State& state) { out.gap = std::max(out.gap, s.model().evaluate("joints.gap", state)[0]); });
+  StepWatch watch([&](const State& state) { out.gap = std::max(out.gap, s.model().evaluate("joints.gap", state)[0]); });
   const Outcome outcome =
       run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&meter, &watch}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;

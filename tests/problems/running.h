@@ -16,6 +16,15 @@ struct Watch : Observer {
   std::function<void(const State&)> look;
 };
 
+// Looks at the end of each step.
+struct StepWatch : Observer {
+  explicit StepWatch(std::function<void(const State&)> f) : look(std::move(f)) {}
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override {
+    if (look) look(observed.state());
+  }
+  std::function<void(const State&)> look;
+};
+
 // Runs to the end of the scene and calls `look` for the start and for `frames` evenly spaced states.
 Outcome run_scene(const BuiltTestScene& s, int frames, std::function<void(const State&)> look);
 
