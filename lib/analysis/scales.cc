@@ -14,21 +14,42 @@ double initial_energy(const FemModel& model, const State& state) {
   return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
 }
 
-// Largest displacement and speed of moved supports; zero without any.
+// Largest displacement and speed of moved supports and of motors; zero without any.
 struct Reach {
   double distance = 0, speed = 0;  // m, m/s
 };
 
+constexpr int kSamples = 200;
+
+std::vector<double> sampled_times(const StepLimits& limits, double start, double end) {
+  std::vector<double> times = limits.ends();
+  for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_ratio_sample(k));
+  times.push_back(end);
+  return times;
+}
+
+// Of bodies that motors of joints move, which are at most as far from the line of a joint as the mesh is long.
+Reach reach_of_motors(const FemModel& model, double start, double end) {
+  const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
+  Reach reach;
+  for (const Joint& joint : model.parts().joints) {
+    const JointEquation* driven = joint.motor();
+    if (!driven) continue;
+    const double arm = joint.coordinate->is_angle() ? extent : 1;
+    for (const double t : sampled_times(driven->motor.factor->step_limits(start, end), start, end)) {
+      reach.distance = std::max(reach.distance, std::min(arm * std::abs(driven->motor.value(t)), extent));
+      reach.speed = std::max(reach.speed, arm * std::abs(driven->motor.rate(t)));
+    }
+  }
+  return reach;
+}
+
 Reach reach_of_supports(const FemModel& model, double start, double end) {
-  constexpr int kSamples = 200;
   const auto& parts = model.parts();
   Reach reach;
   const auto& everywhere = parts.subdomain ? parts.moved_everywhere : parts.moved;
   if (!everywhere) return reach;
-  std::vector<double> times = everywhere->step_limits(start, end).ends();
-  for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_ratio_sample(k));
-  times.push_back(end);
-  for (const double t : times) {
+  for (const double t : sampled_times(everywhere->step_limits(start, end), start, end)) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
     parts.moved->place(t, u, v);
     if (u.cols() == 0) continue;
@@ -74,7 +95,8 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const double work = statics.exists()              ? reached * reached * statics.work
                       : space.is_zero(statics.load) ? 0
                                                     : extent * space.sum_of_sizes(statics.load);
-  const Reach reach = reach_of_supports(model, initial.t, end);
+  const Reach supports = reach_of_supports(model, initial.t, end), motors = reach_of_motors(model, initial.t, end);
+  const Reach reach{std::max(supports.distance, motors.distance), std::max(supports.speed, motors.speed)};
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
   if (const double size = size_of_motion(space, initial, statics, reach); size > 0 && size < scales.position) {
     scales.omega = 2.0 / 3 * scales.velocity / size;

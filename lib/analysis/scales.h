@@ -1,7 +1,7 @@
 // Estimates the size of positions and velocities and the frequency of the motion. Error tolerances are relative to
 // these scales.
 //
-// Notation: L is the body's largest extent, m its mass, V the largest speed of moved supports, E0 the initial elastic
+// Notation: L is the body's largest extent, m its mass, V the largest speed of moved supports and motors, E0 the initial elastic
 // and kinetic energy, u the largest static deflection under the peak loads, c = load_duration_factor(). W is the work
 // of the peak loads through the static displacement times c^2, or through the distance L if the body is not held.
 //

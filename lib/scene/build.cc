@@ -241,10 +241,13 @@ void add_joint_forces(const Scene& scene, FemModel::Parts& parts) {
 
 // Makes the initial velocities fit the joints.
 void fit_joints(const Scene& scene, BuiltScene& built) {
-  constexpr double kTold = 1e-6;  // relative to the largest velocity
+  constexpr double kTold = 1e-6;       // relative to the largest velocity
+  constexpr double kRoundOff = 1e-12;  // relative to the mesh's extent over the duration
+  const double extent = bounding_box(built.model->parts().mesh).size().maxCoeff();
+  const double least = kRoundOff * extent / (scene.time.end - scene.time.start);
   const double largest = built.initial.v.lpNorm<Eigen::Infinity>();
   const double changed = start_consistently(*built.model, built.initial);
-  if (changed > kTold * largest)
+  if (changed > std::max(kTold * largest, least))
     built.warnings.push_back(
         fmt::format("{}: the joints forbid the initial velocities; the run starts with the nearest ones that they "
                     "allow, which differ by "

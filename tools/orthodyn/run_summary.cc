@@ -131,8 +131,9 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   print_extremes(result, false);
   if (!motion.events_not_found.empty())
     fmt::print("  {:<15} never happened: {}\n", "events", join(motion.events_not_found));
-  fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
-             motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
+  if (motion.det_f.element >= 0)
+    fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
+               motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   print_folder(result, 15);
 }
 

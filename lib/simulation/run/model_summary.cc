@@ -15,7 +15,7 @@ std::string laws_of(const FemModel& model) {
   std::vector<std::string> laws;
   for (const auto& term : model.parts().elastic)
     if (std::find(laws.begin(), laws.end(), term->law()) == laws.end()) laws.push_back(term->law());
-  return join(laws, "; ");
+  return laws.empty() ? "none: all bodies are rigid" : join(laws, "; ");
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ CheckContext::CheckContext(const Config& resolved, const Scene& its_scene, const
   const FemModel::Parts& parts = built.model->parts();
   for (std::size_t k = 0; k < parts.elastic.size(); ++k)
     wave_speed = std::max(wave_speed, fastest_wave(parts.elastic[k]->stiffness(), parts.densities[k]));
+  constexpr double kOfSteel = 6e3;  // m/s; checks of rigid bodies need some stiff material
+  if (parts.elastic.empty()) wave_speed = kOfSteel;
 }
 
 std::optional<Config> find_value(const Config& config, const std::vector<std::string>& path) {
