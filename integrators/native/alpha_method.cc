@@ -6,7 +6,7 @@
 namespace orthodyn {
 
 namespace {
-constexpr double kMaxGrowth = 2;  // largest growth of the step for which w is shifted
+constexpr double kMaxGrowth = 2;  // largest growth of the step: w cannot be extrapolated to a much longer one
 }
 
 int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e-12 ? 2 : 1; }
@@ -16,7 +16,15 @@ AlphaMethod::AlphaMethod(const std::string& name, const Model& model, const Newt
     : OneStep(name, model, options, scales),
       p_(parameters),
       solver_(model, options, norm_, statistics_),
-      predictor_(model.space()) {}
+      predictor_(model.space()) {
+  if (model.constraints() && !parameters.damps_fastest())
+    throw ConfigError(
+        "joints need a method that damps the fastest oscillations, as the forces of joints would oscillate: choose "
+        "generalized_alpha with rho_inf below 1, hht_alpha with alpha below 0, or newmark with gamma above 1/2 and "
+        "beta above gamma / 2");
+}
+
+double AlphaMethod::largest_growth() const { return p_.theta() != 0 ? kMaxGrowth : OneStep::largest_growth(); }
 
 void AlphaMethod::restarted() {
   solver_.restart();
@@ -30,20 +38,26 @@ bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
   const StepEnd& from = now();
   w0_ = w_;
-  // The change over a short step cannot be extrapolated to a much longer step: hence kMaxGrowth.
   if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (std::min(h / last_h_, kMaxGrowth) - 1) * last_change_;
+  Vector v0 = from.v;
+  if (model_.constraints() && last_h_ > 0 && h != last_h_) {
+    const double growth = std::min(h / last_h_, kMaxGrowth);
+    v0 += (growth * growth - 1) * solver_.violation(from.t, from.q, from.v);
+  }
   const double share = (1 - alpha_f) / (1 - alpha_m);  // w1 = share x1 + known terms
   w1_ = (alpha_f * from.a - alpha_m * w0_) / (1 - alpha_m);
   stage_.t = from.t + h;
-  stage_.q = from.q + h * from.v + h * h * ((0.5 - beta) * w0_ + beta * w1_);
-  stage_.v = from.v + h * ((1 - gamma) * w0_ + gamma * w1_);
+  stage_.q = from.q + h * v0 + h * h * ((0.5 - beta) * w0_ + beta * w1_);
+  stage_.v = v0 + h * ((1 - gamma) * w0_ + gamma * w1_);
   stage_.w_k = beta * share * h * h;
   stage_.w_d = gamma * share * h;
 
   next_.a.resize(from.a.size());
   predictor_.predict(stage_.t, next_.a);
+  solver_.guess_multipliers(from.lambda);
   solver_.begin_step();
   if (!solver_.solve(stage_, next_.a, next_.q, next_.v)) return false;
+  next_.lambda = solver_.multipliers();
   w1_ += share * next_.a;
   return true;
 }

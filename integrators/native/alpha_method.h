@@ -11,6 +11,11 @@
 // w approximates the solution's acceleration at t + theta h, theta = alpha_m - alpha_f (Jansen, Whiting & Hulbert
 // 2000). At a start w = x; each step multiplies the error of w by -alpha_m / (1 - alpha_m). When h changes, w is
 // shifted to the new time t + theta h (Bruels & Arnold 2008). The order is 2 if gamma = 1/2 - theta, else 1.
+//
+// With constraints (lib/ode/constraints.h), M x = f - G^T lambda and g(t, q1) = 0: the form of index 3 (Arnold & Bruels
+// 2007), of the same order in q, v and lambda. Velocities violate dg/dt = 0 by O(h^2), which does not add up. At a
+// start and where h changes, the parts of w and lambda along the constraints have an error of O(h), which decays at
+// the rate of the fastest oscillations. A method that keeps these is refused.
 #pragma once
 
 #include "integrators/native/acceleration_predictor.h"
@@ -24,10 +29,14 @@ struct AlphaParameters {
 
   double theta() const { return alpha_m - alpha_f; }
   int order() const;
+  // True if the spectral radius is below 1 in the limit of fast oscillations.
+  bool damps_fastest() const { return gamma > 0.5 && 2 * beta > gamma && alpha_f < 0.5; }
 };
 
 class AlphaMethod : public OneStep {
  public:
+  // Throws ConfigError if the model has constraints and the method keeps the fastest oscillations, or if the linear
+  // solver does not accept the model's matrices.
   AlphaMethod(const std::string& name, const Model& model, const NewtonOptions& options, const Scales& scales,
               const AlphaParameters& parameters);
   std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
@@ -35,6 +44,7 @@ class AlphaMethod : public OneStep {
  protected:
   Orders orders() const override { return {p_.order(), p_.order() + 1}; }
   bool balances_by_mean_velocity() const override { return true; }
+  double largest_growth() const override;
   void restarted() override;
   bool attempt(double h) override;
   void estimate(double h, VectorRef e_q, VectorRef e_v) override;

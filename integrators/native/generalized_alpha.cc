@@ -28,6 +28,7 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
   }
   bool runs_on_ranks() const override { return true; }
   InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("generalized_alpha", model, *this, scales(task), least_damping(rho_inf));
   }

@@ -19,6 +19,7 @@ class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptio
   }
   bool runs_on_ranks() const override { return true; }
   InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const AlphaParameters p{0, -alpha, 0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha};
     return std::make_unique<AlphaMethod>("hht_alpha", model, *this, scales(task), p);

@@ -29,6 +29,7 @@ class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions
   }
   bool runs_on_ranks() const override { return true; }
   InternalSupport internal_support() const override { return InternalSupport::fixed_steps; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("newmark", model, *this, scales(task), AlphaParameters{0, 0, beta, gamma});
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "integrators/run_checks.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
 
@@ -41,17 +42,24 @@ void OneStep::start(const State& state) {
   now_.t = state.t;
   now_.q = state.q;
   now_.v = state.v;
+  if (model_.constraints()) ConstraintsAt(model_, now_.t, now_.q).fit(now_.v);
   try {
-    force(now_.t, now_.q, now_.v, now_.a);
+    accelerate(now_);
   } catch (const RecoverableError& e) {
     throw initial_force_error(name_, now_.t, e.what());
   }
-  model_.solve_mass(now_.a);
   before_ = now_;
   control_ = PredictiveStepController(orders().estimate);
   h_ = options_.h0.value_or(0);
   newton_limit_ = std::numeric_limits<double>::infinity();
   restarted();
+}
+
+void OneStep::accelerate(StepEnd& at) {
+  at.a.resize(at.q.size());
+  force(at.t, at.q, at.v, at.a);
+  model_.solve_mass(at.a);
+  if (model_.constraints()) at.lambda = ConstraintsAt(model_, at.t, at.q).multipliers(at.v, at.a);
 }
 
 StepInfo OneStep::step(double t_stop) {
@@ -70,7 +78,12 @@ void OneStep::interpolate(double t, State& out) const {
   if (before_.t == now_.t) {  // no step yet
     out.q = now_.q;
     out.v = now_.v;
+    out.lambda = now_.lambda;
     return;
+  }
+  if (model_.constraints()) {
+    const double s = (t - before_.t) / (now_.t - before_.t);
+    out.lambda = (1 - s) * before_.lambda + s * now_.lambda;
   }
   // Positions and velocities of a method of order 1 fit no common polynomial: the velocity of the polynomial would
   // oscillate.
@@ -122,7 +135,7 @@ void OneStep::advance_adaptively(double t_stop) {
     count(result);
     if (result == StepResult::good) {
       accept(h);
-      const double factor = control_.after_success(h, error_);
+      const double factor = std::min(control_.after_success(h, error_), largest_growth());
       h_ = h * (refused ? std::min(factor, 1.0) : factor);
       if (!refused && h < planned) h_ = std::max(h_, planned);  // shortened only by t_stop or h_max
       newton_limit_ *= kRelease;
@@ -153,10 +166,9 @@ double OneStep::first_step(double t_stop) {
   if (rate > 0) h = std::min(h, 0.01 / (options_.rtol * rate));
   double curvature = 0;
   try {
-    Vector a(model_.num_dofs());
-    force(now_.t + h, now_.q + h * now_.v, now_.v + h * now_.a, a);
-    model_.solve_mass(a);
-    curvature = norm_(h * now_.a, a - now_.a) / h;
+    StepEnd probe{now_.t + h, now_.q + h * now_.v, now_.v + h * now_.a, {}};
+    accelerate(probe);
+    curvature = norm_(h * now_.a, probe.a - now_.a) / h;
   } catch (const RecoverableError&) {
     h *= 1e-2;
   }

@@ -7,6 +7,7 @@
 // run.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "integrators/native/native_options.h"
@@ -38,9 +39,12 @@ class OneStep : public Integrator {
   virtual Orders orders() const = 0;
   // True if the energy balance uses Integrator::mean_state().
   virtual bool balances_by_mean_velocity() const { return false; }
+  // Factor by which an adaptive step grows at most.
+  virtual double largest_growth() const { return std::numeric_limits<double>::infinity(); }
   // Called when now() is a new initial state, to discard data of earlier steps.
   virtual void restarted() = 0;
-  // Attempts one step of length h (s) from now() to next_: writes q, v and the acceleration a of next_, whose t is set.
+  // Attempts one step of length h (s) from now() to next_: writes q, v and the acceleration a of next_, whose t is set,
+  // and lambda if the model has constraints.
   // False if no solution is found. After false or a RecoverableError a shorter step is tried.
   virtual bool attempt(double h) = 0;
   // Estimates the local error of the last attempt: e_q in m, e_v in m/s.
@@ -64,6 +68,8 @@ class OneStep : public Integrator {
 
   void advance_adaptively(double t_stop);
   void advance_by_fixed_step(double t_stop);
+  // Computes the acceleration at a state, and the multipliers if the model has constraints.
+  void accelerate(StepEnd& at);
   double first_step(double t_stop);
   double length(double t_stop) const;  // of the next step with error control, s
   StepResult try_step(double h);

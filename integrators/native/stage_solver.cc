@@ -19,6 +19,7 @@ constexpr double kCorrectionRoundOff = 1e-10;
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
                          Statistics& statistics)
     : model_(model),
+      linear_(model.traits().linear && !model.constraints()),
       kind_(options.newton),
       exhaustive_(options.step.has_value()),
       tolerance_(options.nonlinear_coefficient),
@@ -27,12 +28,16 @@ StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const
       statistics_(statistics),
       matrix_(model, options.linear_solver, options.tangent(), statistics),
       renewal_(renewal_cost(model)),
-      remaining_(model.traits().linear),
+      remaining_(linear_),
       r_(model.num_dofs()),
       dx_(model.num_dofs()),
       guess_(model.num_dofs()),
       work_(model.num_dofs()) {
   matrix_.set_newton_tolerance(0);
+  if (const Constraints* constraints = model.constraints()) {
+    complement_.emplace(*constraints);
+    lambda_ = g_ = Vector::Zero(constraints->size());
+  }
 }
 
 void StageSolver::begin_step() {
@@ -40,7 +45,7 @@ void StageSolver::begin_step() {
 }
 
 bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
-  if (!stale_ && kind_ == NewtonKind::lazy && !model_.traits().linear) stale_ = renewal_.is_due();
+  if (!stale_ && kind_ == NewtonKind::lazy && !linear_) stale_ = renewal_.is_due();
   const long iterations = statistics_.newton_iterations, tangents = statistics_.tangent.count;
   const auto note = [&] {
     renewal_.note(static_cast<double>(statistics_.newton_iterations - iterations),
@@ -58,17 +63,22 @@ bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef 
 
 bool StageSolver::try_solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
   guess_ = x;
+  lambda_guess_ = lambda_;
+  const auto restart = [&] {
+    x = guess_;
+    lambda_ = lambda_guess_;
+  };
   const bool renew = stale_ || kind_ == NewtonKind::full;
   if (!prepare(stage, x, renew)) return false;
   const bool each_time = kind_ == NewtonKind::full;
   if (iterate(stage, x, q, v, each_time)) return true;
-  const bool nothing_to_renew = (renew || model_.traits().linear) && drift(stage) == 0;
+  const bool nothing_to_renew = (renew || linear_) && drift(stage) == 0;
   if (!nothing_to_renew) {
-    x = guess_;
+    restart();
     if (prepare(stage, x, true) && iterate(stage, x, q, v, each_time)) return true;
   }
-  if (!exhaustive_ || each_time || model_.traits().linear) return false;
-  x = guess_;
+  if (!exhaustive_ || each_time || linear_) return false;
+  restart();
   return prepare(stage, x, true) && iterate(stage, x, q, v, true);
 }
 
@@ -85,13 +95,18 @@ bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool rene
     return true;
   }
   remaining_.restart();
-  return factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
+  factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
+  if (factored_ && complement_)
+    factored_ = complement_->factor([this](const Vector& b, Vector& solution) { matrix_.solve(b, solution); });
+  return factored_;
 }
 
 void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
   stale_ = false;
-  if (linearized_ && model_.traits().linear) return;
-  matrix_.linearize(stage.t, stage.q + stage.w_k * x, stage.v + stage.w_d * x);
+  if (linearized_ && linear_) return;
+  const Vector q = stage.q + stage.w_k * x;
+  matrix_.linearize(stage.t, q, stage.v + stage.w_d * x);
+  if (complement_) complement_->linearize(stage.t, q);
   linearized_ = true;
   factored_ = false;
 }
@@ -131,11 +146,27 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
   require_finite(model_, r_);
   model_.multiply_mass(x, work_);
   r_ -= work_;
+  if (complement_) r_ -= complement_->constraints().jacobian(stage.t, q) * lambda_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare * tolerance_, stage.w_k, stage.w_d));
   matrix_.solve(r_, dx_);
   // Scales the correction for outdated weights, as CVODE does for an outdated gamma.
-  dx_ *= 2 / (1 + stage.w_k / matrix_.weights().stiffness);
+  const double scale = 2 / (1 + stage.w_k / matrix_.weights().stiffness);
+  dx_ *= scale;
+  if (complement_) correct_multipliers(stage, q, scale);
   ++statistics_.newton_iterations;
+}
+
+void StageSolver::correct_multipliers(const Stage& stage, const ConstVectorRef& q, double scale) {
+  complement_->constraints().values(stage.t, q, g_);
+  const Vector change = complement_->multipliers(dx_, -g_ / stage.w_k);
+  dx_ -= complement_->change(change);
+  lambda_ += change / scale;
+}
+
+Vector StageSolver::violation(double t, const ConstVectorRef& q, const ConstVectorRef& v) {
+  if (!factored_) return Vector::Zero(q.size());
+  complement_->constraints().rates(t, q, v, g_);
+  return complement_->least_change(g_);
 }
 
 void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
@@ -145,8 +176,10 @@ void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
   r_ -= w.stiffness / w.damping * work_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare, w.damping, 1));
   matrix_.solve(r_, dx_);
+  if (complement_) complement_->remove_violation(dx_);
   e_v = dx_;
   e_q += w.damping * dx_;
+  if (complement_) complement_->remove_violation(e_q);
 }
 
 }  // namespace orthodyn

@@ -3,38 +3,29 @@
 namespace orthodyn::sundials {
 
 void ConstraintSolve::linearize(double t, const ConstVectorRef& q) {
-  G_ = constraints_.jacobian(t, q);
-  H_.compute(Eigen::MatrixXd(G_.transpose() * G_));
-}
-
-bool ConstraintSolve::factor(const std::function<void(const Vector& b, Vector& x)>& solve) {
-  Y_.resize(G_.rows(), G_.cols());
-  Vector x(G_.rows());
-  for (Eigen::Index k = 0; k < G_.cols(); ++k) {
-    solve(Vector(G_.col(k)), x);
-    Y_.col(k) = x;
-  }
-  S_.compute(G_.transpose() * Y_);
-  return S_.info() == Eigen::Success;
+  complement_.linearize(t, q);
+  const auto& G = complement_.jacobian();
+  H_.compute(Eigen::MatrixXd(G.transpose() * G));
 }
 
 void ConstraintSolve::before(double gamma, const ConstVectorRef& b_1, const ConstVectorRef& b_2, VectorRef r_q,
                              VectorRef dmu) const {
-  dmu = H_.solve(b_1 + (G_.transpose() * r_q - b_2) / gamma);
-  r_q -= gamma * (G_ * dmu);
+  const auto& G = complement_.jacobian();
+  dmu = H_.solve(b_1 + (G.transpose() * r_q - b_2) / gamma);
+  r_q -= gamma * (G * dmu);
 }
 
 void ConstraintSolve::after(double gamma, const ConstVectorRef& b_1, VectorRef dq, VectorRef dv,
                             VectorRef dlambda) const {
-  const Vector scaled = S_.solve(G_.transpose() * dv - b_1);
-  const Vector change = Y_ * scaled;
+  const Vector scaled = complement_.multipliers(dv, b_1);
+  const Vector change = complement_.change(scaled);
   dv -= change;
   dq -= gamma * change;
   dlambda = scaled / gamma;
 }
 
 std::size_t ConstraintSolve::bytes() const {
-  return static_cast<std::size_t>(Y_.size() + 3 * Y_.cols() * Y_.cols()) * sizeof(double);
+  return complement_.bytes() + static_cast<std::size_t>(H_.rows() * H_.cols()) * sizeof(double);
 }
 
 }  // namespace orthodyn::sundials

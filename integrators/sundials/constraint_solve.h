@@ -12,24 +12,22 @@
 //     A dv0 = gamma (b_v - K r_q),   S (gamma dlambda) = G dv0 - b_1,
 //     dv = dv0 - A^-1 G^T (gamma dlambda),   dq = r_q + gamma dv.
 //
-// A keeps its size and its Cholesky factor; each set-up solves one more system for each constraint.
+// See constraint_complement.h for the third and fourth line.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <functional>
-
-#include "lib/ode/constraints.h"
+#include "integrators/constraint_complement.h"
 
 namespace orthodyn::sundials {
 
 class ConstraintSolve {
  public:
-  explicit ConstraintSolve(const Constraints& constraints) : constraints_(constraints) {}
+  // `constraints` must outlive this object.
+  explicit ConstraintSolve(const Constraints& constraints) : complement_(constraints) {}
 
-  // Computes G at a state.
+  // Computes G and H at a state.
   void linearize(double t, const ConstVectorRef& q);
-  // Computes A^-1 G^T and S. solve(b, x): A x = b. False if S is not positive definite.
-  bool factor(const std::function<void(const Vector& b, Vector& x)>& solve);
+  // As ConstraintComplement::factor().
+  bool factor(const std::function<void(const Vector& b, Vector& x)>& solve) { return complement_.factor(solve); }
 
   // dmu, and r_q in place of gamma b_q.
   void before(double gamma, const ConstVectorRef& b_1, const ConstVectorRef& b_2, VectorRef r_q, VectorRef dmu) const;
@@ -39,11 +37,8 @@ class ConstraintSolve {
   std::size_t bytes() const;
 
  private:
-  const Constraints& constraints_;
-  Eigen::SparseMatrix<double> G_;  // G^T
+  ConstraintComplement complement_;
   Eigen::LDLT<Eigen::MatrixXd> H_;
-  Eigen::MatrixXd Y_;  // A^-1 G^T
-  Eigen::LLT<Eigen::MatrixXd> S_;
 };
 
 }  // namespace orthodyn::sundials

@@ -7,10 +7,11 @@
 
 namespace orthodyn {
 
-// The solution at one end of a step. `a`: the method's own acceleration, approximately M^-1 f.
+// The solution at one end of a step. `a`: the method's own acceleration, approximately M^-1 f. `lambda`: multipliers of
+// constraints (constraints.h), if the model has any; they are interpolated linearly, with the error O(h^2).
 struct StepEnd {
   double t = 0;
-  Vector q, v, a;
+  Vector q, v, a, lambda = {};
 };
 
 // Computes q and v at a time t within the step; at its ends they are exactly the stored values.
