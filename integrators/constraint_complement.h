@@ -37,6 +37,7 @@ class ConstraintComplement {
   void remove_violation(VectorRef x) const { x -= least_change(G_.transpose() * x); }
 
   const Eigen::SparseMatrix<double>& jacobian() const { return G_; }  // G^T, n x m
+  const Eigen::MatrixXd& directions() const { return Y_; }            // A^-1 G^T, n x m
   std::size_t bytes() const;
 
  private:

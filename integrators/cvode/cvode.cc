@@ -9,9 +9,11 @@
 
 #include "integrators/cvode/backward_problem.h"
 #include "integrators/run_checks.h"
+#include "integrators/sundials/constraint_projection.h"
 #include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn::sundials {
 
@@ -47,6 +49,12 @@ class Cvode final : public SundialsIntegrator {
     if (!memory_) throw RunError("CVODE could not be created");
     if (method.family == CV_BDF) decisions_.emplace_back("max_order", std::to_string(method.max_order));
     if (sensitivities) sensitivities_.emplace(*sensitivities, model, y(), callback_context_, statistics_);
+  }
+
+  // With constraints, multipliers at t need an evaluation of the force.
+  void interpolate(double t, State& out) const override {
+    SundialsIntegrator::interpolate(t, out);
+    if (model_.constraints()) out.lambda = multipliers(out);
   }
 
   void interpolate_sensitivity(int i, double t, State& out) const override {
@@ -118,12 +126,14 @@ class Cvode final : public SundialsIntegrator {
 
   void initialise(double t) override {
     void* m = memory();
+    fit_velocities(t);
     ORTHODYN_CAPTURE_ERRORS(CVodeSetErrHandlerFn, context_, m, &callback_context_.message);
     require(CVodeInit(m, right_hand_side, t, y()));
     set_error_weights();
     require(CVodeSetMaxOrd(m, method_.max_order));
     set_step_limits();
     method_.anderson ? use_fixed_point() : use_newton();
+    if (model_.constraints()) require(CVodeSetProjFn(m, project));
     require(CVodeSetNonlinConvCoef(m, options_.nonlinear_coefficient));
     require(CVodeSetMaxNonlinIters(m, options_.max_newton_iterations));
     if (sensitivities_) start_sensitivities();
@@ -145,8 +155,27 @@ class Cvode final : public SundialsIntegrator {
   // Sensitivities are continuous at t, the end of the last step.
   void reinitialise(double t) override {
     if (sensitivities_) require(CVodeGetSensDky(memory(), t, 0, sensitivities_->values()));
+    fit_velocities(t);
     require(CVodeReInit(memory(), t, y()));
     if (sensitivities_) require(CVodeSensReInit(memory(), corrector(), sensitivities_->values()));
+  }
+
+  // Removes velocities that violate the constraints.
+  void fit_velocities(double t) {
+    if (model_.constraints()) ConstraintsAt(model_, t, positions(y(), extra())).fit(velocities(y(), extra()));
+  }
+
+  // The multipliers at a state; empty if the force cannot be evaluated there.
+  Vector multipliers(const State& at) const {
+    Vector a(at.q.size());
+    try {
+      if (internal_) internal_->internal().force(at.t, at.q, at.v, {InternalState::Kind::given, at.z.data(), 0}, a);
+      else model_.force(at.t, at.q, at.v, a);
+    } catch (const RecoverableError&) {
+      return {};
+    }
+    model_.solve_mass(a);
+    return ConstraintsAt(model_, at.t, at.q).multipliers(at.v, a);
   }
 
   int advance(double t_stop, double& t) override {
@@ -223,8 +252,28 @@ class Cvode final : public SundialsIntegrator {
     auto& me = self(user);
     const Extra m = me.extra();
     positions(y_dot, m) = velocities(y, m);
-    const int flag = me.evaluate_acceleration(me.model_, t, y, velocities(y_dot, m));
+    int flag = me.evaluate_acceleration(me.model_, t, y, velocities(y_dot, m));
+    if (!flag && me.model_.constraints())
+      flag = guarded(me.callback_context_, [&] {
+        ConstraintsAt(me.model_, t, positions(y, m)).multipliers(velocities(y, m), velocities(y_dot, m));
+      });
     return flag ? flag : me.evaluate_internal_rates(t, y, y_dot);
+  }
+
+  // Computes the change of y that puts it on the constraints, and removes from the error, if given, what violates them.
+  static int project(sunrealtype t, N_Vector y, N_Vector change, sunrealtype tolerance, N_Vector error, void* user) {
+    auto& me = self(user);
+    const Extra m = me.extra();
+    return guarded(me.callback_context_, [&] {
+      N_VConst(0, change);
+      const ConstraintProjection projection(*me.model_.constraints(), t, positions(y, m),
+                                            me.newton_system_->constraint_directions());
+      projection.project(velocities(y, m), ScaledNorm(me.options_.rtol, me.scales_), tolerance, positions(change, m),
+                         velocities(change, m));
+      if (!error) return;
+      projection.remove_violation(positions(error, m));
+      projection.remove_violation(velocities(error, m));
+    });
   }
 
   static int sensitivity_derivative(int, sunrealtype t, N_Vector y, N_Vector y_dot, int i, N_Vector s, N_Vector s_dot,

@@ -1,4 +1,5 @@
-// CVODE's BDF (Hindmarsh et al. 2005): variable order 1-5, variable step, modified Newton.
+// CVODE's BDF (Hindmarsh et al. 2005): variable order 1-5, variable step, modified Newton. With constraints, the
+// equations of index 1 are solved, and each step is projected (constraint_projection.h).
 #include <cvodes/cvodes.h>
 
 #include "integrators/cvode/cvode.h"
@@ -24,6 +25,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
   bool runs_on_ranks() const override { return true; }
   bool computes_sensitivities() const override { return true; }
   InternalSupport internal_support() const override { return InternalSupport::own; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
@@ -32,6 +34,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
     return make_cvode(method, model, *this, sizes, task.sensitivities);
   }
   AdjointSolution integrate_adjoint(const Model& model, const Task& task, AdjointEquations& equations) const override {
+    if (model.constraints()) throw ConfigError("derivatives of motions are not available with joints");
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
     return integrate_cvode_adjoint({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task, equations);

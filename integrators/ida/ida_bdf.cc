@@ -20,7 +20,11 @@ struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }
 };
 
-constexpr LibraryCalls kIdaCalls = ORTHODYN_LIBRARY_CALLS(IDA);
+constexpr LibraryCalls kIdaCalls = [] {
+  LibraryCalls calls = ORTHODYN_LIBRARY_CALLS(IDA);
+  calls.algebraic = true;
+  return calls;
+}();
 
 class IdaBdf final : public SundialsIntegrator {
  public:

@@ -13,6 +13,10 @@
 //     dv = dv0 - A^-1 G^T (gamma dlambda),   dq = r_q + gamma dv.
 //
 // See constraint_complement.h for the third and fourth line.
+//
+// For CVODE on the equations of index 1, q' = v, M v' = f - G^T lambda, G v' + c = 0 with c from v (constraints.h),
+// Newton's system is that of reduced_solve.h with G^T (gamma dlambda) added to the left side, and G dv = G r_v: after()
+// with b_1 = G r_v, without mu and before().
 #pragma once
 
 #include "integrators/constraint_complement.h"
@@ -31,9 +35,12 @@ class ConstraintSolve {
 
   // dmu, and r_q in place of gamma b_q.
   void before(double gamma, const ConstVectorRef& b_1, const ConstVectorRef& b_2, VectorRef r_q, VectorRef dmu) const;
+  // G x.
+  Vector product(const ConstVectorRef& x) const { return complement_.jacobian().transpose() * x; }
   // dlambda, and dv and dq in place of dv0 and r_q + gamma dv0.
   void after(double gamma, const ConstVectorRef& b_1, VectorRef dq, VectorRef dv, VectorRef dlambda) const;
 
+  const ConstraintComplement& complement() const { return complement_; }
   std::size_t bytes() const;
 
  private:

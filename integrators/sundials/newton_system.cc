@@ -21,6 +21,7 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
   if (const Constraints* constraints = model.constraints()) {
     if (options.is_full()) throw ConfigError("linear_solver: klu_full is not available with joints; use klu or auto");
     extra_.constraints = constraints->size();
+    dlambda_.resize(constraints->size());
     constraints_.emplace(*constraints);
   }
   if (options.is_full()) full_.emplace(model);
@@ -32,6 +33,7 @@ NewtonSystem::NewtonSystem(const Model& model, const Options& options, const Sca
 
 void NewtonSystem::create_first_order(SUNContext context, std::function<double()> gamma) {
   if (full_) return create_full(context);
+  extra_.constraints = 0;
   create_reduced(context, std::move(gamma), [this](N_Vector x, N_Vector b) {
     model_.multiply_mass(velocities(b, extra_), momentum_);
     positions(x, extra_) = positions(b, extra_);
@@ -76,10 +78,12 @@ void NewtonSystem::create_reduced(SUNContext context, std::function<double()> ga
 void NewtonSystem::solve_reduced(N_Vector x, N_Vector b, double scale) {
   auto dq = positions(x, extra_), dv = velocities(x, extra_);
   const double gamma = reduced_->gamma();
-  if (constraints_) {
+  if (extra_.constraints > 0) {
     b_1_ = velocity_multipliers(b, extra_);
     b_2_ = position_multipliers(b, extra_);
     constraints_->before(gamma, b_1_, b_2_, dq, position_multipliers(x, extra_));
+  } else if (constraints_) {
+    b_1_ = constraints_->product(velocities(b, extra_));
   }
   if (internal_) {
     const Vector& tau = internal_->internal().relaxation_times();
@@ -89,7 +93,10 @@ void NewtonSystem::solve_reduced(N_Vector x, N_Vector b, double scale) {
     momentum_ += gamma * work_;
   }
   reduced_->solve(dq, momentum_, dq, dv);
-  if (constraints_) constraints_->after(gamma, b_1_, dq, dv, velocity_multipliers(x, extra_));
+  if (constraints_) {
+    constraints_->after(gamma, b_1_, dq, dv, dlambda_);
+    if (extra_.constraints > 0) velocity_multipliers(x, extra_) = dlambda_;
+  }
   if (internal_) {
     const Vector& tau = internal_->internal().relaxation_times();
     auto dz = internal_part(x, extra_);

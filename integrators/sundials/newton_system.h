@@ -52,6 +52,10 @@ class NewtonSystem {
   // Residual form: computes K and D (reduced; J is unused) or J = dF/dy + cj dF/dy' (full) at y. `cj` in 1/s.
   int linearize_residual(double t, double cj, N_Vector y, SUNMatrix J);
 
+  // The directions A^-1 G^T of the last set-up in which the forces of constraints move the model. Precondition: the
+  // model has constraints.
+  const Eigen::MatrixXd& constraint_directions() const { return constraints_->complement().directions(); }
+
   double least_rate() const { return reduced_ ? reduced_->least_rate() : 0; }  // see NewtonMatrix::least_rate()
   std::size_t factor_bytes() const { return reduced_ ? reduced_->factor_bytes() : klu_factor_bytes(klu_.get()); }
   std::size_t bytes() const { return reduced_ ? reduced_->bytes() : 0; }
@@ -76,10 +80,10 @@ class NewtonSystem {
   double gamma_ = 0;  // residual form: 1/cj of the last set-up, s
   std::function<double()> library_gamma_;
   std::optional<GivenInternalModel> internal_;  // only for models with internal variables
-  Extra extra_;                                 // numbers of internal variables and constraints
+  Extra extra_;                                 // numbers of internal variables and multipliers in x and b
   std::optional<ConstraintSolve> constraints_;  // only for models with constraints
   double t_ = 0;                                // s, with q_ and z_: at which internal variables were linearised
-  Vector q_, z_, w_, work_, b_1_, b_2_;
+  Vector q_, z_, w_, work_, b_1_, b_2_, dlambda_;
   std::optional<ReducedSolve> reduced_;
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // used only by klu_full

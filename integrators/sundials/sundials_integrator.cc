@@ -27,6 +27,8 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const LibraryCalls& lib
       scales_(scales),
       decisions_(scale_decisions(scales)),
       internal_(internal_model(model)),
+      extra_{internal_ ? internal_->internal().size() : 0,
+             library.algebraic && model.constraints() ? model.constraints()->size() : 0},
       y_(make_vector(size(), context_, model.ranks())),
       name_(std::move(name)),
       library_(library) {

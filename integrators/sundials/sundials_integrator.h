@@ -42,6 +42,7 @@ struct LibraryCalls {
   // Null in IDA.
   int (*set_factor_interval)(void* memory, long steps) = nullptr;
   int (*set_tangent_interval)(void* memory, long steps) = nullptr;
+  bool algebraic = false;  // solves algebraic equations: multipliers of constraints are unknowns. True in IDA
 };
 
 // The LibraryCalls of CVODE, IDA or ARKODE from the prefix of its functions, CVode, IDA or ARKStep. Calls that IDA
@@ -122,9 +123,7 @@ class SundialsIntegrator : public Integrator {
   // Sets the rates (e - z) / tau of the internal variables in y_dot, if the model has any. As evaluate_acceleration().
   int evaluate_internal_rates(double t, N_Vector y, N_Vector y_dot);
 
-  Extra extra() const {
-    return {internal_ ? internal_->internal().size() : 0, model_.constraints() ? model_.constraints()->size() : 0};
-  }
+  Extra extra() const { return extra_; }
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()) + extra().size(); }
   // The model with the internal variables of y; `model` itself if it has none.
   const Model& with_internals(const Model& model, N_Vector y);
@@ -137,6 +136,7 @@ class SundialsIntegrator : public Integrator {
   Statistics statistics_;
   CallbackContext callback_context_;
   std::optional<GivenInternalModel> internal_;  // only for models with internal variables
+  const Extra extra_;                           // numbers of further unknowns
   Context context_;                             // declared before everything created in it
   OwnedVector y_;
   std::optional<NonsmoothNewton> nonsmooth_newton_;

@@ -132,7 +132,9 @@ class ConstrainedSteps : public Constrained {};
 const Method kNewmark{"newmark", 1, ", beta: 0.5, gamma: 0.7"};
 INSTANTIATE_TEST_SUITE_P(Methods, Constrained,
                          testing::Values(Method{"ida_bdf", 2, ", max_order: 2"}, Method{"ida_bdf", 5, ", max_order: 5"},
-                                         Method{"generalized_alpha", 2}, Method{"hht_alpha", 2}, kNewmark),
+                                         Method{"cvode_bdf", 2, ", max_order: 2"},
+                                         Method{"cvode_bdf", 5, ", max_order: 5"}, Method{"generalized_alpha", 2},
+                                         Method{"hht_alpha", 2}, kNewmark),
                          method_name);
 INSTANTIATE_TEST_SUITE_P(Methods, ConstrainedSteps,
                          testing::Values(Method{"generalized_alpha", 2}, Method{"hht_alpha", 2}, kNewmark),
@@ -158,6 +160,13 @@ TEST_P(Constrained, FewStepsAreRejected) {
 TEST_P(Constrained, PositionsSatisfyTheConstraints) {
   for (std::size_t k = 0; k < motions().size(); ++k)
     for (const double rtol : {1e-4, 1e-6}) EXPECT_LE(errors(k, fmt::format("rtol: {}", rtol)).gap, rtol) << k;
+}
+
+TEST_P(Constrained, VelocitiesOfMultistepMethodsSatisfyTheConstraints) {
+  if (has_key(GetParam().type, "step")) GTEST_SKIP() << "violates them by h^2";
+  for (std::size_t k = 0; k < motions().size(); ++k)
+    for (const double rtol : {1e-4, 1e-6})
+      EXPECT_LE(errors(k, fmt::format("rtol: {}", rtol)).rate, rtol * motions()[k].first->scales().velocity) << k;
 }
 
 // The observed order of an error for steps from h.
@@ -197,14 +206,15 @@ class Restarted : public SphericalPendulum {
   std::vector<double> breakpoints(double, double) const override { return {0.301, 0.65}; }
 };
 
+// Single errors jump by a factor of 3 with the steps (order.h).
 TEST_P(Constrained, RestartsKeepTheAccuracy) {
   const Restarted model;
   const auto& exact = motions()[1].second;
   const double rtol = GetParam().order == 1 ? 1e-5 : 1e-6;
   const std::string with = yaml(fmt::format("rtol: {}", rtol));
   const Errors whole = errors_of(shaken_pendulum(), exact, with), parts = errors_of(model, exact, with);
-  EXPECT_LE(parts.motion, 2 * whole.motion);
-  EXPECT_LE(parts.multipliers, 2 * whole.multipliers);
+  EXPECT_LE(parts.motion, 5 * whole.motion);
+  EXPECT_LE(parts.multipliers, 5 * whole.multipliers);
 }
 
 // Initial velocities are made to fit.
@@ -228,7 +238,7 @@ TEST(ConstrainedMethods, OthersAreRefusedByName) {
     if (choice->solves_constraints() || method.linear_only) continue;
     const std::string step = controls_its_error(name) ? "" : ", step: 0.01";
     EXPECT_THAT(refusal(free_pendulum(), name + method.needs + step),
-                testing::HasSubstr("use ida_bdf, generalized_alpha"))
+                testing::HasSubstr("use ida_bdf, cvode_bdf, generalized_alpha"))
         << name;
   }
 }
@@ -254,7 +264,9 @@ TEST(ConstrainedMethods, StepsDoNotGrowAndShrinkInTurn) {
 }
 
 TEST(ConstrainedMethods, KluFullIsRefused) {
-  EXPECT_THAT(refusal(free_pendulum(), "ida_bdf, linear_solver: klu_full"), testing::HasSubstr("klu_full"));
+  for (const char* type : {"ida_bdf", "cvode_bdf"})
+    EXPECT_THAT(refusal(free_pendulum(), std::string(type) + ", linear_solver: klu_full"),
+                testing::HasSubstr("klu_full is not available with joints"));
 }
 
 }  // namespace
