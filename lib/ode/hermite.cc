@@ -26,7 +26,9 @@ void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, Ve
 }
 
 State mean_state(const StepEnd& begin, const StepEnd& end) {
-  return {0.5 * (begin.t + end.t), 0.5 * (begin.q + end.q), (end.q - begin.q) / (end.t - begin.t)};
+  State mean{0.5 * (begin.t + end.t), 0.5 * (begin.q + end.q), (end.q - begin.q) / (end.t - begin.t)};
+  if (begin.lambda.size() == end.lambda.size()) mean.lambda = 0.5 * (begin.lambda + end.lambda);
+  return mean;
 }
 
 }  // namespace orthodyn

@@ -20,7 +20,7 @@ void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q
 // Linear interpolation, error O(h^2), for methods of order 1.
 void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
-// Mean of the positions q0 and q1 at both ends, with the mean velocity (q1 - q0)/h.
+// Mean of the positions q0 and q1 and of the multipliers at both ends, with the mean velocity (q1 - q0)/h.
 State mean_state(const StepEnd& begin, const StepEnd& end);
 
 }  // namespace orthodyn

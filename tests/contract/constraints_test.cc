@@ -199,6 +199,25 @@ TEST_P(ConstrainedSteps, VelocitiesViolateTheConstraintsBySquaresOfTheStep) {
   }
 }
 
+// The pivot moves at the speed p': it does the work -lambda r . p'.
+TEST_P(ConstrainedSteps, MeanStatesTellTheWorkOfAMovedPivot) {
+  if (GetParam().order < 2) GTEST_SKIP() << "damps the motion itself";
+  const auto& model = shaken_pendulum();
+  const auto imbalance = [&](double step) {
+    const auto integrator = make(model, yaml(fmt::format("rtol: 1e-12, step: {}", step)));
+    double work = 0;
+    const State last = integrate(model, *integrator, [&](const StepInfo& info, const Integrator& i) {
+      const State mean = *i.mean_state();
+      const Eigen::SparseMatrix<double> G = model.jacobian(mean.t, mean.q);
+      Vector g_rate(1);
+      model.rates(mean.t, mean.q, mean.v, g_rate);
+      work += info.h * mean.lambda[0] * (g_rate[0] - Vector(G.col(0)).dot(mean.v));
+    });
+    return std::abs(model.energy(last) - model.energy(model.initial()) - work);
+  };
+  EXPECT_NEAR(observed_order(0.02, imbalance), 2, 0.3);
+}
+
 // A model whose motion is restarted, as after events.
 class Restarted : public SphericalPendulum {
  public:
