@@ -9,6 +9,7 @@
 
 #include "integrators/cvode/backward_problem.h"
 #include "integrators/run_checks.h"
+#include "integrators/sundials/constraint_forces.h"
 #include "integrators/sundials/constraint_projection.h"
 #include "integrators/sundials/forward_sensitivities.h"
 #include "integrators/sundials/secant_newton.h"
@@ -44,6 +45,7 @@ class Cvode final : public SundialsIntegrator {
         SensitivityEquations* sensitivities)
       : SundialsIntegrator(method.name, kCvodeCalls, model, options, scales, !method.anderson),
         method_(method),
+        constraint_forces_(model),
         memory_(CVodeCreate(method.family, context_)) {
     check_mass_for_full_jacobian();
     if (!memory_) throw RunError("CVODE could not be created");
@@ -175,7 +177,7 @@ class Cvode final : public SundialsIntegrator {
       return {};
     }
     model_.solve_mass(a);
-    return ConstraintsAt(model_, at.t, at.q).multipliers(at.v, a);
+    return constraint_forces_.multipliers(at.t, at.q, at.v, a);
   }
 
   int advance(double t_stop, double& t) override {
@@ -255,7 +257,7 @@ class Cvode final : public SundialsIntegrator {
     int flag = me.evaluate_acceleration(me.model_, t, y, velocities(y_dot, m));
     if (!flag && me.model_.constraints())
       flag = guarded(me.callback_context_, [&] {
-        ConstraintsAt(me.model_, t, positions(y, m)).multipliers(velocities(y, m), velocities(y_dot, m));
+        me.constraint_forces_.multipliers(t, positions(y, m), velocities(y, m), velocities(y_dot, m));
       });
     return flag ? flag : me.evaluate_internal_rates(t, y, y_dot);
   }
@@ -291,6 +293,7 @@ class Cvode final : public SundialsIntegrator {
   }
 
   CvodeMethod method_;
+  mutable ConstraintForces constraint_forces_;  // mutable: its results depend on earlier calls by round-off only
   std::optional<ForwardSensitivities> sensitivities_;
   std::optional<SecantNewton> secant_newton_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
