@@ -24,7 +24,8 @@ Values flat(const M& m) {
 enum class OfPlies { mean, first, smallest };
 
 // Values of all mesh cells, `components` per cell. f writes the values of element k of a term to `out`. A cell with
-// plies has the mean over its thickness, the values of its first ply, or the smallest of its plies.
+// plies has the mean over its thickness, the values of its first ply, or the smallest of its plies; a cell of a rigid
+// body has none, NaN.
 Values per_cell(const View& view, std::size_t components, OfPlies of_plies,
                 const std::function<void(const ElasticTerm&, int k, double* out)>& f) {
   Values out(view.parts().mesh.region_of.size() * components), of_ply(components);
@@ -45,6 +46,9 @@ Values per_cell(const View& view, std::size_t components, OfPlies of_plies,
       filled[cell] += share;
     }
   }
+  for (std::size_t cell = 0; cell < filled.size(); ++cell)
+    if (filled[cell] == 0)
+      std::fill_n(out.data() + cell * components, components, std::numeric_limits<double>::quiet_NaN());
   return out;
 }
 
