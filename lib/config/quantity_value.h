@@ -29,7 +29,11 @@ class QuantityValue {
 
 template <>
 struct Value<QuantityValue> {
-  static ValueSchema schema() { return Value<double>::schema(); }
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::either,
+            .words = "number with unit",
+            .items = {Value<double>::schema(), {.kind = ValueSchema::Kind::text}}};
+  }
   static QuantityValue read(const Config& c, const Rule& r);
   static std::string yaml(const QuantityValue& x) { return number_text(x.si()); }
 };
