@@ -135,7 +135,11 @@ class Cvode final : public SundialsIntegrator {
     require(CVodeSetMaxOrd(m, method_.max_order));
     set_step_limits();
     method_.anderson ? use_fixed_point() : use_newton();
-    if (model_.constraints()) require(CVodeSetProjFn(m, project));
+    if (model_.constraints()) {
+      require(CVodeSetProjFn(m, project));
+      // The error of a motion that constraints prescribe is its violation of them: it must not be removed.
+      require(CVodeSetProjErrEst(m, SUNFALSE));
+    }
     require(CVodeSetNonlinConvCoef(m, options_.nonlinear_coefficient));
     require(CVodeSetMaxNonlinIters(m, options_.max_newton_iterations));
     if (sensitivities_) start_sensitivities();
@@ -207,6 +211,8 @@ class Cvode final : public SundialsIntegrator {
       case CV_FIRST_RHSFUNC_ERR:
       case CV_REPTD_RHSFUNC_ERR:
       case CV_UNREC_RHSFUNC_ERR: return Reason::force;
+      case CV_PROJFUNC_FAIL:
+      case CV_REPTD_PROJFUNC_ERR: return Reason::newton;
       case CV_TOO_MUCH_ACC: return Reason::diverged;
       case CV_TOO_CLOSE: return Reason::step_too_small;
       default: return Reason::other;
@@ -262,8 +268,8 @@ class Cvode final : public SundialsIntegrator {
     return flag ? flag : me.evaluate_internal_rates(t, y, y_dot);
   }
 
-  // Computes the change of y that puts it on the constraints, and removes from the error, if given, what violates them.
-  static int project(sunrealtype t, N_Vector y, N_Vector change, sunrealtype tolerance, N_Vector error, void* user) {
+  // Computes the change of y that puts it on the constraints.
+  static int project(sunrealtype t, N_Vector y, N_Vector change, sunrealtype tolerance, N_Vector, void* user) {
     auto& me = self(user);
     const Extra m = me.extra();
     return guarded(me.callback_context_, [&] {
@@ -272,9 +278,6 @@ class Cvode final : public SundialsIntegrator {
                                             me.newton_system_->constraint_directions());
       projection.project(velocities(y, m), ScaledNorm(me.options_.rtol, me.scales_), tolerance, positions(change, m),
                          velocities(change, m));
-      if (!error) return;
-      projection.remove_violation(positions(error, m));
-      projection.remove_violation(velocities(error, m));
     });
   }
 

@@ -6,8 +6,11 @@
 namespace orthodyn {
 
 namespace {
+// Share of the velocities that violate the constraints in the estimate. They are an error of the solution, which does
+// not add up, unlike the local errors, which reach about ten times the tolerance.
+constexpr double kViolationShare = 0.1;
 constexpr double kMaxGrowth = 2;  // largest growth of the step: w cannot be extrapolated to a much longer one
-}
+}  // namespace
 
 int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e-12 ? 2 : 1; }
 
@@ -24,7 +27,13 @@ AlphaMethod::AlphaMethod(const std::string& name, const Model& model, const Newt
         "beta above gamma / 2");
 }
 
-double AlphaMethod::largest_growth() const { return p_.theta() != 0 ? kMaxGrowth : OneStep::largest_growth(); }
+// A growth by r multiplies the errors of the multipliers by r^2; they decay by alpha_f / (1 - alpha_f) in each step.
+double AlphaMethod::largest_growth() const {
+  constexpr double kDecay = 0.9, kSlowest = 0.25;
+  const double usual = p_.theta() != 0 ? kMaxGrowth : OneStep::largest_growth();
+  if (!model_.constraints()) return usual;
+  return std::min(usual, std::sqrt(kDecay / std::max(p_.alpha_f / (1 - p_.alpha_f), kSlowest)));
+}
 
 void AlphaMethod::restarted() {
   solver_.restart();
@@ -76,6 +85,7 @@ void AlphaMethod::estimate(double h, VectorRef e_q, VectorRef e_v) {
   e_v = h * (fourth * e_v + (gamma + theta - 0.5) * change);
   e_q = h * h * third * change;
   solver_.filter(e_q, e_v);
+  if (model_.constraints()) e_v += kViolationShare * solver_.violation(next_.t, next_.q, next_.v);
 }
 
 void AlphaMethod::accepted(double h) {

@@ -42,7 +42,10 @@ void OneStep::start(const State& state) {
   now_.t = state.t;
   now_.q = state.q;
   now_.v = state.v;
-  if (model_.constraints()) ConstraintsAt(model_, now_.t, now_.q).fit(now_.v);
+  if (model_.constraints()) {
+    ConstraintsAt(model_, now_.t, now_.q).fit_positions(now_.q);
+    ConstraintsAt(model_, now_.t, now_.q).fit(now_.v);
+  }
   try {
     accelerate(now_);
   } catch (const RecoverableError& e) {

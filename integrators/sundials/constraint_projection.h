@@ -24,8 +24,6 @@ class ConstraintProjection {
   // Computes the changes that put q and v on the constraints, with errors below `tolerance` in the norm of the error
   // test. Throws RecoverableError if Newton's method does not converge.
   void project(const ConstVectorRef& v, const ScaledNorm& norm, double tolerance, VectorRef dq, VectorRef dv) const;
-  // Removes from x what violates G x = 0.
-  void remove_violation(VectorRef x) const { x -= change(G_.transpose() * x); }
 
  private:
   // The x with G x = c.

@@ -11,6 +11,15 @@ ConstraintsAt::ConstraintsAt(const Model& model, double t, const Vector& q)
   factor_.compute(H_);
 }
 
+void ConstraintsAt::fit_positions(VectorRef q) const {
+  constexpr int kMost = 3;  // of Newton's method with one Jacobian, from positions within an integrator's tolerance
+  Vector g(G_.cols());
+  for (int k = 0; k < kMost; ++k) {
+    constraints_.values(t_, q, g);
+    q -= W_ * factor_.solve(g);
+  }
+}
+
 void ConstraintsAt::fit(VectorRef v) const {
   Vector rates(G_.cols());
   constraints_.rates(t_, q_, v, rates);

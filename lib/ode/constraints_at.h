@@ -17,6 +17,8 @@ class ConstraintsAt {
   // G M^-1 G^T, m x m.
   const Eigen::MatrixXd& matrix() const { return H_; }
 
+  // Makes positions near q fit the constraints, to round-off, by a change along M^-1 G^T.
+  void fit_positions(VectorRef q) const;
   // Makes velocities fit the constraints, by the least change in the norm of the kinetic energy.
   void fit(VectorRef v) const;
   // The multipliers lambda of a motion with the velocities v. `a`: accelerations by all other forces; becomes those
