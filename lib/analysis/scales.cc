@@ -28,16 +28,25 @@ std::vector<double> sampled_times(const StepLimits& limits, double start, double
   return times;
 }
 
-// Of bodies that motors of joints move, which are at most as far from the line of a joint as the mesh is long.
+// Largest distance at rest of nodes of the first body that hold a turning joint from a point of its line, m.
+double arm_of(const Mesh& mesh, const JointCoordinate& coordinate) {
+  const Vec3 from = coordinate.points().front().rest;
+  double arm = 0;
+  for (const auto& [node, weight] : coordinate.points().front().weights)
+    arm = std::max(arm, (mesh.node(node) - from).norm());
+  return arm;
+}
+
+// Of the bodies that motors of joints move.
 Reach reach_of_motors(const FemModel& model, double start, double end) {
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   Reach reach;
   for (const Joint& joint : model.parts().joints) {
     const JointEquation* driven = joint.motor();
     if (!driven) continue;
-    const double arm = joint.coordinate->is_angle() ? extent : 1;
+    const double arm = joint.coordinate->is_angle() ? arm_of(model.parts().mesh, *joint.coordinate) : 1;
     for (const double t : sampled_times(driven->motor.factor->step_limits(start, end), start, end)) {
-      reach.distance = std::max(reach.distance, std::min(arm * std::abs(driven->motor.value(t)), extent));
+      reach.distance = std::max(reach.distance, std::min(arm * std::abs(driven->motor.value(t)), arm + extent));
       reach.speed = std::max(reach.speed, arm * std::abs(driven->motor.rate(t)));
     }
   }

@@ -30,6 +30,7 @@ struct Support {
   std::string name;
   std::vector<int> nodes;
   std::vector<std::array<bool, 3>> held;  // which components, per node
+  std::vector<int> frames = {};           // nodes of held rigid bodies that have the forces on them, besides `nodes`
 };
 
 // The tied nodes of a surface, and their leaders as given, which may be tied to others.

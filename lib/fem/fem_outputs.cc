@@ -46,7 +46,7 @@ Values per_cell(const View& view, std::size_t components, OfPlies of_plies,
       filled[cell] += share;
     }
   }
-  for (std::size_t cell = 0; cell < filled.size(); ++cell)
+  for (std::size_t cell = 0; cell < filled.size() && !view.parts().rigid_bodies.empty(); ++cell)
     if (filled[cell] == 0)
       std::fill_n(out.data() + cell * components, components, std::numeric_limits<double>::quiet_NaN());
   return out;
@@ -216,6 +216,7 @@ Vec3 middle_of(const NodalVector& places, const Subdomain* subdomain) {
 Vec3 reaction(const Support& support, const NodalVector& forces) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < support.nodes.size(); ++i) sum += on(support, forces, i);
+  for (const int node : support.frames) sum += forces.col(node);
   return sum;
 }
 
@@ -227,6 +228,7 @@ Vec3 reaction_torque(const Support& support, const NodalVector& forces, const No
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < support.nodes.size(); ++i)
     sum += (places.col(static_cast<Eigen::Index>(i)) - middle).cross(on(support, forces, i));
+  for (const int node : support.frames) sum += (Vec3(x.col(node)) - middle).cross(Vec3(forces.col(node)));
   return sum;
 }
 
@@ -253,6 +255,7 @@ std::vector<FemOutput> make_outputs() {
       {{"region", Location::cell, 1, "1", "Index of the region."},
        [](const View& view) {
          const auto& regions = view.parts().mesh.region_of;
+         if (!view.parts().subdomain) return Values(regions.begin(), regions.end());
          return per_cell(view, 1, OfPlies::first, [&](const ElasticTerm& term, int k, double* out) {
            *out = regions[static_cast<std::size_t>(term.cell(k))];
          });

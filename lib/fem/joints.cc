@@ -279,9 +279,32 @@ const JointEquation* Joint::motor() const {
   return nullptr;
 }
 
+namespace {
+
+// The coordinate of a driven joint must be that of its motor at the start.
+void require_motors_at_start(const FemModel& model, const State& state) {
+  constexpr double kApart = 1e-9;
+  const NodalExpansion nodal(model.parts(), state.t, state.q, state.v);
+  for (const Joint& joint : model.parts().joints) {
+    const JointEquation* driven = joint.motor();
+    if (!driven) continue;
+    const double found = joint.coordinate->value(nodal.u), wanted = driven->motor.value(state.t);
+    const bool is_angle = joint.coordinate->is_angle();
+    const double apart = is_angle ? std::remainder(wanted - found, 2 * std::acos(-1.0)) : wanted - found;
+    const double scale = is_angle ? 1 : driven->length();
+    if (!(std::abs(apart) <= kApart * scale))
+      throw ConfigError(joint.place, fmt::format("motor: `to` times `factor` is {0:.4g} {2} at the start, where the "
+                                                 "coordinate is {1:.4g} {2}; let the factor begin there",
+                                                 wanted, found, joint.coordinate->unit()));
+  }
+}
+
+}  // namespace
+
 double start_consistently(const FemModel& model, State& state) {
   const Constraints* constraints = model.constraints();
   if (!constraints) return 0;
+  require_motors_at_start(model, state);
   constexpr double kApart = 1e-9, kDependent = 1e-10;  // relative to the body, and of eigenvalues
   const auto fail = [&](Eigen::Index constraint, const std::string& what) {
     const int k = static_cast<int>(constraint);
@@ -293,14 +316,20 @@ double start_consistently(const FemModel& model, State& state) {
   Eigen::Index worst = 0;
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   if (const double apart = g.cwiseAbs().maxCoeff(&worst); apart > kApart * extent)
-    fail(worst,
-         fmt::format("has points {:.3g} m apart at the start; the initial displacement must keep joints together",
-                     apart));
+    fail(worst, fmt::format("{} {:.3g} m apart at the start; the initial displacement must {}",
+                            joint_of(model.parts(), static_cast<int>(worst)).of == Joint::Of::rigid_body
+                                ? "has nodes whose distances change by up to"
+                                : "has points",
+                            apart,
+                            joint_of(model.parts(), static_cast<int>(worst)).of == Joint::Of::rigid_body
+                                ? "not deform rigid regions"
+                                : "keep joints together"));
   const ConstraintsAt at(model, state.t, state.q);
   const Eigen::MatrixXd& H = at.matrix();
   const Vector scale = H.diagonal().cwiseSqrt().cwiseInverse();
   for (Eigen::Index k = 0; k < m; ++k)
-    if (!std::isfinite(scale[k])) fail(k, "holds nothing that can move: all its nodes are clamped or moved");
+    if (!std::isfinite(scale[k]))
+      fail(k, "holds nothing that can move: all its nodes are clamped or moved, or belong to one rigid body");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
   if (eigen.eigenvalues()[0] < kDependent) {
     Vector share = eigen.eigenvectors().col(0).cwiseAbs();

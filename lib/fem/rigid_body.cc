@@ -58,8 +58,13 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
   std::vector<Vec3> through{mean};
   double size = 0;
   for (int k = 0; k < 4; ++k) {
-    double farthest = 0;
-    for (const int node : nodes) farthest = std::max(farthest, distance_from(through, mesh.node(node)));
+    double farthest = -1;
+    int best = -1;
+    for (const int node : nodes)
+      if (const double distance = distance_from(through, mesh.node(node)); distance > farthest) {
+        farthest = distance;
+        best = node;
+      }
     size = std::max(size, farthest);
     if (farthest <= kRoundOff * size) return frame;
     const auto from_corners = [&](int node) {
@@ -67,13 +72,10 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
       for (const Vec3& corner : through) nearest = std::min(nearest, (mesh.node(node) - corner).norm());
       return nearest;
     };
-    int best = -1;
-    for (const int node : nodes) {
-      const double distance = distance_from(through, mesh.node(node));
-      if (k < 3 ? distance == farthest
-                : distance >= kAlmost * farthest && (best < 0 || from_corners(node) < from_corners(best)))
+    for (const int node : nodes)
+      if (k == 3 && from_corners(node) < from_corners(best) &&
+          distance_from(through, mesh.node(node)) >= kAlmost * farthest)
         best = node;
-    }
     frame.push_back(best);
     if (k == 0) through.clear();
     through.push_back(mesh.node(best));

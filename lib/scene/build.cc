@@ -256,7 +256,6 @@ void fit_joints(const Scene& scene, BuiltScene& built) {
 }
 
 BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
-  if (ranks) require_divisible(scene);
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
@@ -266,6 +265,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   parts.rigid_bodies = rigid_bodies(regions, parts.mesh);
   TiedSurfaces tied = make_ties(scene.ties, parts.rigid_bodies, parts.mesh, loaded.warnings);
   if (ranks) require_no_ties(scene, parts.rigid_bodies);
+  if (ranks) require_divisible(scene);
   warn_of_unused_axes(scene, deformable, loaded.cell_data, loaded.warnings);
   ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);

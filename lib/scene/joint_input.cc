@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "lib/scene/output_files.h"
+
 namespace orthodyn {
 
 const Spec<JointEnd>& JointEnd::spec() {
@@ -21,6 +25,8 @@ const Spec<JointSpring>& JointSpring::spec() {
                "Distance or angle without force, such as 30 deg; default 0, the rest shape.")
           .check([](const JointSpring& spring, const Config& config) {
             if (spring.stiffness == 0 && spring.damping == 0) config.fail("give a stiffness, a damping, or both");
+            if (spring.stiffness == 0 && spring.rest != 0)
+              config.at("rest").fail("has no effect without a stiffness; remove it");
           });
   return s;
 }
@@ -83,6 +89,16 @@ void check_drive(const JointInput& joint, const Config& config) {
     if (config.at(section).has(key)) value.require(unit, {config.at(section).at(key).where()});
   };
   if (joint.spring) require("spring", "rest", joint.spring->rest);
+  if (joint.turns()) {
+    constexpr double kHalfTurn = 3.14159265358979;
+    const auto require_half_turn = [&](const char* section, const char* key, double angle) {
+      if (std::abs(angle) >= kHalfTurn)
+        config.at(section).at(key).fail("springs and stops of hinges see angles between -180 and 180 deg");
+    };
+    if (joint.spring) require_half_turn("spring", "rest", joint.spring->rest);
+    if (joint.stop && joint.stop->low) require_half_turn("stop", "low", *joint.stop->low);
+    if (joint.stop && joint.stop->high) require_half_turn("stop", "high", *joint.stop->high);
+  }
   if (joint.stop) {
     require("stop", "low", joint.stop->low.value_or(0));
     require("stop", "high", joint.stop->high.value_or(0));
@@ -95,6 +111,7 @@ void check_drive(const JointInput& joint, const Config& config) {
 }
 
 void check_joint(const JointInput& joint, const Config& config) {
+  require_name_for_csv(joint.name, {config.at("name").where()});
   check_drive(joint, config);
   const bool is_ball = joint.type == JointType::ball;
   if (is_ball && !joint.at) config.fail("a ball joint needs `at`, the point of both bodies");

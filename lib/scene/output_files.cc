@@ -55,12 +55,12 @@ ValueSchema schema_of_names(const std::vector<Location>& locations, std::vector<
                      "list of fields");
 }
 
+}  // namespace
+
 void require_name_for_csv(const std::string& name, const SourceLocation& origin) {
   if (name.find_first_of(",\"\r\n") != std::string::npos)
     origin.fail("its name is written to a CSV file: it must not contain commas, quotes or line breaks");
 }
-
-}  // namespace
 
 // A harmonic analysis also has accelerations.
 ValueSchema Value<NodeFields>::schema() { return schema_of_names({Location::node}, {"acceleration"}); }

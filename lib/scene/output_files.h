@@ -70,6 +70,9 @@ struct Output {
   static const Spec<Output>& spec();
 };
 
+// Throws ConfigError for names that a CSV file cannot have.
+void require_name_for_csv(const std::string& name, const SourceLocation& origin);
+
 // When the state is saved for `orthodyn run --resume`: as soon as one of the two limits is reached.
 struct CheckpointSchedule {
   double every = 60;          // s of wall time

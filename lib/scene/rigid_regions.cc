@@ -67,17 +67,28 @@ bool is_touched(const RigidBody& body, const Holders& holders) {
   });
 }
 
-// Gives the reaction of the frame to the support that has the node `known`.
-void add_to_support(std::vector<Support>& supports, int known, const std::array<int, 4>& frame) {
+bool is_held_by_another(const RigidBody& body, const Holders& holders, int holder) {
+  for (const int node : body.nodes())
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const int of = holders.of(node, c); of != Holders::kNone && of != holder) return true;
+  return false;
+}
+
+// Gives the whole force on a body to the first support that has one of its nodes.
+void add_to_support(std::vector<Support>& supports, const RigidBody& body) {
+  const std::vector<int> nodes = body.nodes();
+  const std::set<int> own(nodes.begin(), nodes.end());
+  bool is_given = false;
   for (Support& support : supports) {
-    const auto at = std::find(support.nodes.begin(), support.nodes.end(), known);
-    if (at == support.nodes.end() || !support.held[static_cast<std::size_t>(at - support.nodes.begin())][0]) continue;
-    for (const int node : frame) {
-      if (std::find(support.nodes.begin(), support.nodes.end(), node) != support.nodes.end()) continue;
-      support.nodes.push_back(node);
-      support.held.push_back({true, true, true});
+    bool touches = false;
+    for (std::size_t i = 0; i < support.nodes.size(); ++i) {
+      if (!own.contains(support.nodes[i])) continue;
+      touches = touches || support.held[i][0];
+      support.held[i] = {false, false, false};
     }
-    return;
+    if (!touches || is_given) continue;
+    support.frames.insert(support.frames.end(), body.frame.begin(), body.frame.end());
+    is_given = true;
   }
 }
 
@@ -105,11 +116,11 @@ void hold_rigid_bodies(const Scene& scene, const Mesh& mesh, std::vector<RigidBo
                                     "of three of its nodes that are not on a line, and then holds the whole body; use "
                                     "joints for bodies that turn or slide",
                                     body.name));
-    if (held.size() > 1)
+    if (is_held_by_another(body, holders, whole->first))
       throw ConfigError(
           body.place, fmt::format("the rigid region '{}' is held by several clamps and motions; leave one", body.name));
     body.is_held = true;
-    for (const int node : body.frame)
+    for (const int node : body.nodes())
       for (std::size_t c = 0; c < 3; ++c) supports.held[3 * static_cast<std::size_t>(node) + c] = true;
     if (const int motion = Holders::motion(whole->first); motion >= 0) {
       const SupportMotion& given = scene.motions[static_cast<std::size_t>(motion)];
@@ -117,10 +128,11 @@ void hold_rigid_bodies(const Scene& scene, const Mesh& mesh, std::vector<RigidBo
         given.origin.fail(fmt::format(
             "formulas would deform the rigid region '{}'; give a translation or a rotation with a factor", body.name));
       std::vector<int>& moved = supports.moved[static_cast<std::size_t>(motion)].nodes;
-      for (const int node : body.frame)
-        if (std::find(moved.begin(), moved.end(), node) == moved.end()) moved.push_back(node);
+      const std::set<int> known(moved.begin(), moved.end());
+      for (const int node : body.nodes())
+        if (!known.contains(node)) moved.push_back(node);
     }
-    add_to_support(supports.named, whole->second.front(), body.frame);
+    add_to_support(supports.named, body);
   }
 }
 

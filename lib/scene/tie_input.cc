@@ -119,17 +119,19 @@ TiedSurfaces make_ties(const std::vector<TieInput>& inputs, const std::vector<Ri
   TiedSurfaces out;
   std::vector<TiedNode> nodes;
   std::map<int, const TieInput*> tied_by;
+  std::vector<const RigidBody*> body_of(mesh.nodes.size(), nullptr);
+  for (const RigidBody& body : rigid)
+    for (const int node : body.nodes()) body_of[static_cast<std::size_t>(node)] = &body;
   for (const TieInput& input : inputs) {
     NamedTie named{input.name.empty() ? fmt::format("tie_{}", out.named.size() + 1) : input.name, {}};
     for (const NamedTie& other : out.named)
       if (other.name == named.name) input.origin.fail(fmt::format("name: '{}' is used twice among ties", named.name));
     for (TiedNode& tied : mortar_of(input, mesh, warnings).nodes) {
-      for (const RigidBody& body : rigid)
-        if (body.contains({tied.node}))
-          input.origin.fail(
-              fmt::format("'{}' has nodes of the rigid region '{}', which cannot follow another surface: "
-                          "swap `first` and `second`, or make one rigid region of both",
-                          input.first, body.name));
+      if (const RigidBody* body = body_of[static_cast<std::size_t>(tied.node)])
+        input.origin.fail(
+            fmt::format("'{}' has nodes of the rigid region '{}', which cannot follow another surface: "
+                        "swap `first` and `second`, or make one rigid region of both",
+                        input.first, body->name));
       const auto [other, is_new] = tied_by.emplace(tied.node, &input);
       if (!is_new)
         input.origin.fail(fmt::format(

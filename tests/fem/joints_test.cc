@@ -270,6 +270,12 @@ TEST(Joints, AreRefusedWithTheReason) {
   const std::string rail = "{type: slot, name: a, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], ";
   EXPECT_THAT(message(rail + "stop: {high: 1 deg, stiffness: 1}, " + kAllNodes), HasSubstr("deg"));
   EXPECT_THAT(message(rail + "stop: {low: 0.1, stiffness: 1}, " + kAllNodes), HasSubstr("rest shape"));
+  EXPECT_THAT(message(rail + "motor: {to: 1, factor: {type: constant}}, " + kAllNodes), HasSubstr("at the start"));
+  const std::string pivot = "{type: hinge, name: a, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], ";
+  EXPECT_THAT(message(pivot + "motor: {to: 180 deg, factor: {type: constant}}, " + kAllNodes),
+              HasSubstr("at the start"));
+  EXPECT_THAT(message(pivot + "stop: {high: 270 deg, stiffness: 1}, " + kAllNodes), HasSubstr("180 deg"));
+  EXPECT_THAT(message("{type: ball, name: 'a, b', " + pin), HasSubstr("commas"));
   EXPECT_THAT(message(rail + "stop: {stiffness: 1}, " + kAllNodes), HasSubstr("low"));
   EXPECT_THAT(message(rail + "motor: " + kMotor + ", spring: {stiffness: 1}, " + kAllNodes), HasSubstr("prescribes"));
   EXPECT_THAT(message(rail + "motor: {to: 1, factor: {type: ramp, end: 1}}, " + kAllNodes), HasSubstr("smooth_step"));

@@ -85,8 +85,14 @@ TEST(RigidBodies, AreHeldByThreeNodes) {
   EXPECT_EQ(s.size(), 3 * 12);
   const auto reaction = s.model().evaluate("reaction.clamp_1", s.built.initial);
   EXPECT_NEAR(reaction[2], 10 * 50 * 0.08, 1e-12 * 40);
+  const auto torque = s.model().evaluate("torque.clamp_1", s.built.initial);  // about the middle of box.x0
+  EXPECT_NEAR(torque[1], -10 * 50 * 0.08 * 0.5, 1e-12 * 40);
   EXPECT_THAT(message("clamps: [{nearest: [0, 0, 0]}]"), testing::HasSubstr("held in part"));
   EXPECT_THAT(message("clamps: [{surface: box.x0, components: [x]}]"), testing::HasSubstr("held in part"));
+  EXPECT_THAT(
+      message("clamps: [{surface: box.x0}]\nmotions: [{surface: box.x1, components: [x], translation: [1, 0, 0], "
+              "factor: {type: smooth_step, end: 1}}]"),
+      testing::HasSubstr("several clamps"));
 }
 
 TEST(RigidBodies, MoveWithThreeNodes) {

@@ -176,7 +176,7 @@ void InversionWatch::save(Archive& archive) {
 void InversionWatch::restore(const Archive& archive) {
   smallest_ = archive.number("smallest");
   time_ = archive.number("time");
-  element_ = static_cast<int>(archive.count("element"));
+  element_ = static_cast<int>(archive.number("element"));  // -1 without elements
 }
 
 void InversionWatch::observe(const ObservedState& observed) {
