@@ -48,8 +48,8 @@ class Barycentric {
 
 // The nodes of a frame: the first is far from the mean of all nodes, and each further one as far as possible from the
 // point, line or plane through those before. Returns fewer than four if the nodes lie in a plane or on a line. Of nodes
-// that are almost equally far from the plane, the fourth is the one nearest to a corner: then the distances of a thin
-// body's frame do not depend on each other.
+// that are almost equally far from the plane, the fourth is the one nearest to the third. So three nodes of a thin
+// rod's frame lie at one end, and two of a plate's frame above each other: the distances do not depend on each other.
 std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
   constexpr double kAlmost = 0.9;
   Vec3 mean = Vec3::Zero();
@@ -67,13 +67,9 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
       }
     size = std::max(size, farthest);
     if (farthest <= kRoundOff * size) return frame;
-    const auto from_corners = [&](int node) {
-      double nearest = size;
-      for (const Vec3& corner : through) nearest = std::min(nearest, (mesh.node(node) - corner).norm());
-      return nearest;
-    };
+    const auto from_third = [&](int node) { return (mesh.node(node) - through.back()).norm(); };
     for (const int node : nodes)
-      if (k == 3 && from_corners(node) < from_corners(best) &&
+      if (k == 3 && from_third(node) < from_third(best) &&
           distance_from(through, mesh.node(node)) >= kAlmost * farthest)
         best = node;
     frame.push_back(best);
