@@ -108,7 +108,7 @@ TEST_F(Jobs, OneThatTakesTooLongIsAResult) {
 }
 
 TEST_F(Jobs, WhatFailedIsTriedAgainWhereThatIsAskedFor) {
-  const auto all = jobs(2, 0.2);
+  const auto all = jobs(2, 1);
   EXPECT_TRUE(run("[ $(basename $2) = a ] || sleep 100; " + std::string(kCopy), all, 1));
   EXPECT_EQ(number_at_limits({all[0], all[1], all[1]}), 1u);
   EXPECT_TRUE(run(kCopy, all, 1, OldFailures::retry));
