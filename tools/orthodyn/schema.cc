@@ -22,6 +22,8 @@ using Schema = nlohmann::ordered_json;
 
 // A number and a unit, which may begin with 1 ("3 1/s"). orthodyn itself checks whether the unit fits.
 constexpr const char* kQuantity = R"(^ *[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)? *(1/)?[^\s\d/*.^()+-]( ?[^\s\d]\d*)* *$)";
+// ValueSchema::words of numbers whose unit depends on other keys (lib/config/quantity_value.h).
+constexpr const char* kAnyQuantity = "number with unit";
 
 Schema reference_to(const std::string& title) { return {{"$ref", "#/definitions/" + title}}; }
 
@@ -98,7 +100,7 @@ class SchemaWriter {
       case ValueSchema::Kind::named: return named(schema, key);
       case ValueSchema::Kind::section: return define(schema.title, [&] { return section(schema.keys()); });
       case ValueSchema::Kind::choice: return choice(schema, key);
-      case ValueSchema::Kind::either: return either(schema, key);
+      case ValueSchema::Kind::either: return schema.words == kAnyQuantity ? quantity(key) : either(schema, key);
       case ValueSchema::Kind::anything: break;
     }
     return Schema::object();
@@ -118,7 +120,7 @@ class SchemaWriter {
 
   Schema quantity(const Key& key) {
     Schema plain = number("number", key.range);
-    if (key.unit.empty()) return plain;
+    if (key.unit.empty() && key.schema.words != kAnyQuantity) return plain;
     if (key.unit == "rad") plain = {{"const", 0}};
     const Schema text = define("quantity", []() -> Schema { return {{"type", "string"}, {"pattern", kQuantity}}; });
     return {{"anyOf", {plain, text}}};
