@@ -336,7 +336,12 @@ double start_consistently(const FemModel& model, State& state) {
     for (Eigen::Index k = 0; k < m; ++k)  // joints are what a user can remove
       if (joint_of(model.parts(), static_cast<int>(k)).of == Joint::Of::rigid_body) share[k] = 0;
     share.maxCoeff(&worst);
-    fail(worst, "is already held by the other joints and clamps: remove one of them");
+    fail(worst,
+         "is already held by the other joints and clamps in the rest shape: remove one of them, replace a hinge by a "
+         "ball or "
+         "cylindrical joint, give each joint of a deformable body nodes of its own, or draw links that are in line "
+         "there in "
+         "another position");
   }
   const Vector before = state.v;
   at.fit(state.v);

@@ -93,7 +93,10 @@ void check_drive(const JointInput& joint, const Config& config) {
     constexpr double kHalfTurn = 3.14159265358979;
     const auto require_half_turn = [&](const char* section, const char* key, double angle) {
       if (std::abs(angle) >= kHalfTurn)
-        config.at(section).at(key).fail("springs and stops of hinges see angles between -180 and 180 deg");
+        config.at(section).at(key).fail(
+            fmt::format("springs and stops of hinges see angles between -180 and 180 deg, found {:.4g} rad; give "
+                        "degrees as '90 deg'",
+                        angle));
     };
     if (joint.spring) require_half_turn("spring", "rest", joint.spring->rest);
     if (joint.stop && joint.stop->low) require_half_turn("stop", "low", *joint.stop->low);
