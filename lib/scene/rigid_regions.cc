@@ -58,15 +58,7 @@ std::map<int, std::vector<int>> held_nodes(const RigidBody& body, const Holders&
   return out;
 }
 
-bool is_touched(const RigidBody& body, const Holders& holders) {
-  const std::vector<int> nodes = body.nodes();
-  return std::any_of(nodes.begin(), nodes.end(), [&](int node) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (holders.of(node, c) != Holders::kNone) return true;
-    return false;
-  });
-}
-
+// Whether something other than `holder` holds a coordinate of the body.
 bool is_held_by_another(const RigidBody& body, const Holders& holders, int holder) {
   for (const int node : body.nodes())
     for (std::size_t c = 0; c < 3; ++c)
@@ -106,7 +98,7 @@ void hold_rigid_bodies(const Scene& scene, const Mesh& mesh, std::vector<RigidBo
   if (bodies.empty()) return;
   const Holders holders(supports);
   for (RigidBody& body : bodies) {
-    if (!is_touched(body, holders)) continue;
+    if (!is_held_by_another(body, holders, Holders::kNone)) continue;
     const auto held = held_nodes(body, holders);
     const auto whole =
         std::find_if(held.begin(), held.end(), [&](const auto& entry) { return spans_plane(mesh, entry.second); });
