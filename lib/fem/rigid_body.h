@@ -24,7 +24,7 @@ struct RigidBody {
   std::vector<TiedNode> followers;  // all other nodes
   bool is_held = false;             // by a clamp or a motion of its frame
 
-  // All nodes, those of the frame first.
+  // All nodes of the body: first the four nodes of the frame, then the followers.
   std::vector<int> nodes() const;
   // Whether all of these nodes are nodes of the body.
   bool contains(const std::vector<int>& some) const;

@@ -222,7 +222,7 @@ std::vector<Joint> joints_of(const Scene& scene, const Mesh& mesh, const std::ve
   return joints;
 }
 
-// In the next two functions, the first joints are those of the scene.
+// The joints of the scene come first in `joints` here and in Parts::joints below; those of rigid bodies follow.
 void add_joint_couplings(const Scene& scene, const std::vector<Joint>& joints, NodePairs& pairs) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (!scene.joints[k].law().acts()) continue;

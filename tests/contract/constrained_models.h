@@ -53,7 +53,7 @@ class SphericalPendulum : public PivotedModel {
 };
 
 // A point of 1 kg on a rod in the plane, and another one that hangs from it by a stiff, damped spring of 0.5 m: q =
-// (x1, y1, x2, y2). The frequency of the spring is 140 rad/s, that of the motion 3 rad/s.
+// (x1, y1, x2, y2). The spring oscillates at 140 rad/s, the pendulum at 3 rad/s.
 class StiffPendulum : public PivotedModel {
  public:
   StiffPendulum() : PivotedModel(Matrix::Identity(4, 4), 2, 0) { traits_.damping_matrix = true; }

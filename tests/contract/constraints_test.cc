@@ -1,5 +1,5 @@
 // Methods that integrate constraints: orders of positions, velocities and multipliers, by the tolerance and by fixed
-// steps, against the motion by another method (constrained_models.h); restarts, drift, and what is refused.
+// steps, compared with a fine solution by another method (constrained_models.h); restarts, drift, refused inputs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -140,8 +140,8 @@ void expect_no_resultant(const NodalVector& x, const NodalVector& f) {
   EXPECT_LE(torque.norm(), 1e-13);
 }
 
-// The forces of a joint have no resultant and no torque about any point; those of coinciding points only if they do
-// coincide.
+// The forces of a joint have no resultant and no torque about any point. The forces of two joined points have no torque
+// only while the points coincide, so that a hinge is tested without them.
 TEST_P(EachJoint, HasForcesThatCancel) {
   const BuiltTestScene s(two_bars(GetParam()));
   const Path path(s);
@@ -213,7 +213,8 @@ TEST_P(JointForces, CancelAndDissipate) {
   EXPECT_NEAR(term.dissipation(nodal.state()), -power, 1e-13);
 }
 
-// The angle of a hinge is that of a rotation about its line, by the right-hand rule.
+// The coordinate of a hinge is the angle of the rotation about its line, by the right-hand rule; the coordinate of a
+// slider is the distance along its line.
 TEST(JointCoordinates, MeasureAngleAndDistance) {
   for (const double value : {0.3, -2.9}) {
     const Vec3 from(0.5, 0.1, 0.1), line = Vec3(0.7, 0.4, 0).normalized();

@@ -44,7 +44,8 @@ TEST(RigidBodies, HaveTwelveUnknownsAndSixConstraints) {
   EXPECT_EQ(s.model().constraints()->name(0), "rigid body box, distance");
 }
 
-// The kinetic energy of a rigid motion is that of the exact inertia of the box, for thin boxes too; the nodes follow.
+// In a rigid motion, the kinetic energy equals that of a solid box with the exact inertia, also for thin boxes, and all
+// nodes have the velocity of the motion.
 TEST(RigidBodies, HaveTheExactInertia) {
   for (const Vec3& size : {Vec3(1, 0.4, 0.2), Vec3(1, 1, 0.01), Vec3(1, 0.02, 0.01)}) {
     const BuiltTestScene s(box_and_block("", fmt::format("[{}, {}, {}]", size[0], size[1], size[2])));

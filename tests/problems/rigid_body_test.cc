@@ -130,7 +130,7 @@ integrator: {{type: ida_bdf, rtol: {}}}
 }
 
 // A motor turns the box about a hinge at its end by a smooth step of 200 degrees: torque = J th'' + m g l cos th.
-// The motion has no freedom, so that its error is that of the constraints alone.
+// The motor prescribes the whole motion: nothing is left to integrate, and each error is an error of the constraints.
 class Motors : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Motors, testing::Values("ida_bdf", "cvode_bdf", "generalized_alpha"));
 
