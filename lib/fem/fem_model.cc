@@ -293,6 +293,17 @@ StepLimits FemModel::step_limits(double start, double end) const {
   return limits;
 }
 
+double FemModel::longest_step(const State& state) const {
+  double longest = std::numeric_limits<double>::infinity();
+  std::optional<NodalExpansion> nodal;
+  for (const auto& term : parts_.loads) {
+    if (!(term->contact_stiffness() > 0)) continue;
+    if (!nodal) nodal.emplace(parts_, state.t, state.q, state.v);
+    longest = std::min(longest, term->longest_step(nodal->state()));
+  }
+  return longest;
+}
+
 Geometry FemModel::geometry() const { return {parts_.mesh.nodes, parts_.mesh.cells}; }
 
 std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {

@@ -96,6 +96,7 @@ class FemModel : public Model {
   const Constraints* constraints() const override { return constraints_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override;
+  double longest_step(const State& state) const override;
 
   std::vector<OutputInfo> outputs() const override;
   std::unique_ptr<StateView> view(const State& state) const override;

@@ -1,6 +1,7 @@
 // A contribution to the force f in M u'' = f. Each physical effect has its own file.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -88,6 +89,9 @@ class Term {
 
   virtual std::vector<double> breakpoints(double /*start*/, double /*end*/) const { return {}; }
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
+
+  // Model::longest_step() of this term.
+  virtual double longest_step(const NodalState&) const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace orthodyn

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -158,6 +159,10 @@ class Model : public OutputSource {
 
   // Limits of adaptive steps between two times (s), so that no step misses a short change of f in time.
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
+
+  // The longest step (s) from a state in which no body can pass through another one unseen, if no velocity grows to
+  // more than three times the largest one; infinite without contact of bodies.
+  virtual double longest_step(const State&) const { return std::numeric_limits<double>::infinity(); }
 
  private:
   // A number that is unique to this model; a copy of the model gets another number.

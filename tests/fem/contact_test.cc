@@ -29,8 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Places, NearestPoint,
 Distance distance(const Vec12& z) {
   Triangle t;
   t << z.segment<3>(3), z.segment<3>(6), z.segment<3>(9);
-  const Vec3 x = z.head<3>(), L = nearest_point(x, t), y = x - t * L;
-  return {y.normalized(), y.norm(), L, t};
+  const Vec3 x = z.head<3>();
+  return distance_of(x, t, nearest_point(x, t));
 }
 
 Vec12 all_coordinates(const Vec3& x) {

@@ -55,12 +55,16 @@ ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>&
       }
     }
   mean_edge_ = sum / (3 * static_cast<double>(triangles_.size()));
-  for (const auto& [edge, count] : uses)
+  const std::map<int, double> area_of(areas_.begin(), areas_.end());
+  for (const auto& [edge, count] : uses) {
+    const auto& [a, b] = edge;
+    edges_.push_back({{a, b}, (area_of.at(a) + area_of.at(b)) / 2, (mesh.node(a) - mesh.node(b)).norm()});
     if (count == 1) {
       boundary_edges_.insert(edge);
       boundary_nodes_.insert(edge.first);
       boundary_nodes_.insert(edge.second);
     }
+  }
 }
 
 bool ContactSurface::is_on_boundary(const Corners& triangle, const Vec3& L) const {
@@ -72,7 +76,8 @@ bool ContactSurface::is_on_boundary(const Corners& triangle, const Vec3& L) cons
 }
 
 std::size_t ContactSurface::bytes() const {
-  return areas_.capacity() * sizeof(areas_[0]) + triangles_.capacity() * sizeof(Corners);
+  return areas_.capacity() * sizeof(areas_[0]) + triangles_.capacity() * sizeof(Corners) +
+         edges_.capacity() * sizeof(Edge);
 }
 
 PlacedSurface::PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach)
@@ -144,12 +149,17 @@ std::optional<Touch> PlacedSurface::touch_of(int node) const {
     const Vec3 foot = foot_on_plane(x, t);
     const double depth = (x - t.col(0)).dot(inward);
     if (foot.minCoeff() < -kBeside || !(depth > 0 && depth <= reach_)) return std::nullopt;
-    return Touch{node, nodes, {inward, depth, foot, t, true}};
+    Touch touch{node, nodes, distance_of(x, t, foot, true)};
+    touch.distance.n = inward;
+    touch.distance.r = depth;
+    return touch;
   }
   const Vec3 y = x - t * nearest->L;
   if (!(y.dot(normal) < 0)) return std::nullopt;
   const bool is_inside = nearest->L.minCoeff() > 0;  // then the normal has more digits than y
-  return Touch{node, nodes, {is_inside ? inward : Vec3(y / nearest->r), nearest->r, nearest->L, t}};
+  Touch touch{node, nodes, distance_of(x, t, nearest->L)};
+  if (is_inside) touch.distance.n = inward;
+  return touch;
 }
 
 }  // namespace orthodyn

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/fem/contact/nearest_point.h"
+#include "lib/fem/contact/distance.h"
 #include "lib/fem/nodal_vector.h"
 #include "lib/mesh/mesh.h"
 
@@ -17,12 +17,18 @@ namespace orthodyn {
 class ContactSurface {
  public:
   using Corners = std::array<int, 3>;
+  struct Edge {
+    std::array<int, 2> nodes;  // ascending
+    double area;               // mean of its nodes, m^2
+    double length;             // at rest, m
+  };
 
   ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces);
 
   const std::vector<std::pair<int, double>>& areas() const { return areas_; }  // node, m^2
   const std::vector<Corners>& triangles() const { return triangles_; }
-  double mean_edge() const { return mean_edge_; }  // of the triangles at rest, m
+  const std::vector<Edge>& edges() const { return edges_; }  // of all triangles
+  double mean_edge() const { return mean_edge_; }            // of the triangles at rest, m
 
   // Whether the point with these barycentric coordinates lies on the boundary of the surface.
   bool is_on_boundary(const Corners& triangle, const Vec3& L) const;
@@ -32,6 +38,7 @@ class ContactSurface {
  private:
   std::vector<std::pair<int, double>> areas_;
   std::vector<Corners> triangles_;
+  std::vector<Edge> edges_;
   std::set<std::pair<int, int>> boundary_edges_;  // node pairs, ascending
   std::set<int> boundary_nodes_;
   double mean_edge_ = 0;
@@ -43,6 +50,8 @@ struct Touch {
   int node;
   ContactSurface::Corners triangle;
   Distance distance;
+
+  std::array<int, 4> nodes() const { return {node, triangle[0], triangle[1], triangle[2]}; }
 };
 
 // The triangles of a surface at the positions x, for searches.

@@ -1,7 +1,7 @@
 #include "lib/fem/contact/nearest_point.h"
 
 #include <Eigen/LU>
-#include <vector>
+#include <algorithm>
 
 namespace orthodyn {
 
@@ -41,33 +41,34 @@ Vec3 foot_on_plane(const Vec3& x, const Triangle& triangle) {
   return {1 - m[0] - m[1], m[0], m[1]};
 }
 
-Vec12 Distance::gradient() const {
-  Vec12 out;
-  out << n, -L[0] * n, -L[1] * n, -L[2] * n;
-  return out;
+// Source: Ericson (2005), section 5.1.9.
+NearestPlaces nearest_places(const Segment& first, const Segment& second) {
+  const auto bounded = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  const Vec3 d1 = first.col(1) - first.col(0), d2 = second.col(1) - second.col(0), y = first.col(0) - second.col(0);
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), b = d1.dot(d2), c = d1.dot(y), f = d2.dot(y);
+  const double determinant = a * e - b * b;
+  double s = determinant > 0 ? bounded((b * f - c * e) / determinant) : 0;
+  double t = (b * s + f) / e;
+  if (t < 0) {
+    t = 0;
+    s = bounded(-c / a);
+  } else if (t > 1) {
+    t = 1;
+    s = bounded((b - c) / a);
+  }
+  return {s, t};
 }
 
-Mat12 Distance::second_derivative() const {
-  Eigen::Matrix<double, 3, 12> B;
-  B << Mat3::Identity(), -L[0] * Mat3::Identity(), -L[1] * Mat3::Identity(), -L[2] * Mat3::Identity();
-  std::vector<int> corners;  // of the triangle, the edge or the corner that p lies in
-  for (int k = 0; k < 3; ++k)
-    if (on_plane || L[k] > 0) corners.push_back(k);
-  Mat12 out = B.transpose() * B;
-  const auto m = static_cast<Eigen::Index>(corners.size()) - 1;
-  if (m > 0) {
-    Eigen::MatrixXd E(3, m), coupling(12, m);
-    for (Eigen::Index k = 0; k < m; ++k) {
-      const int first = corners[0], other = corners[static_cast<std::size_t>(k) + 1];
-      E.col(k) = triangle.col(other) - triangle.col(first);
-      coupling.col(k) = -B.transpose() * E.col(k);
-      coupling.block<3, 1>(3 + 3 * first, k) += r * n;
-      coupling.block<3, 1>(3 + 3 * other, k) -= r * n;
-    }
-    out -= coupling * Eigen::MatrixXd(E.transpose() * E).inverse() * coupling.transpose();
+bool pierces(const Segment& segment, const Triangle& triangle) {
+  const Vec3 a = triangle.col(0), normal = (triangle.col(1) - a).cross(triangle.col(2) - a);
+  const double from = normal.dot(segment.col(0) - a), to = normal.dot(segment.col(1) - a);
+  if (!((from < 0 && to > 0) || (from > 0 && to < 0))) return false;
+  const Vec3 x = segment.col(0) + from / (from - to) * (segment.col(1) - segment.col(0));
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 corner = triangle.col(k), side = triangle.col((k + 1) % 3) - triangle.col(k);
+    if (!(side.cross(x - corner).dot(normal) > 0)) return false;
   }
-  const Vec12 slope = gradient();
-  return out - slope * slope.transpose();
+  return true;
 }
 
 }  // namespace orthodyn

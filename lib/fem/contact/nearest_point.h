@@ -1,4 +1,4 @@
-// The nearest point of a triangle, and the derivatives of the distance from it.
+// Nearest points of points, segments and triangles.
 #pragma once
 
 #include "lib/core/types.h"
@@ -14,24 +14,15 @@ Vec3 foot_on_plane(const Vec3& x, const Triangle& triangle);
 // exactly 0: all are positive inside, two on an edge, one at a corner.
 Vec3 nearest_point(const Vec3& x, const Triangle& triangle);
 
-using Vec12 = Eigen::Matrix<double, 12, 1>;
-using Mat12 = Eigen::Matrix<double, 12, 12>;
-
-// The distance r > 0 of x from its nearest point p, as a function of z = (x, corners): its gradient is (n, -L_1 n,
-// -L_2 n, -L_3 n) with n = (x - p)/r, because the nearest point makes the distance stationary.
-//
-// second_derivative() is r times the second derivative. With D = r^2/2, y = x - p = B z, the free coordinates m along
-// the directions E on the triangle, edge or corner (none): D_zz = B^T B, D_mm = E^T E, D_zm = -B^T E + (dB/dm)^T y, and
-// by elimination of m, r r_zz = D_zz - D_zm D_mm^-1 D_mz - r_z r_z^T.
-struct Distance {
-  Vec3 n;  // unit vector from p to x
-  double r;
-  Vec3 L;
-  Triangle triangle;
-  bool on_plane = false;  // p is the nearest point of the plane of the triangle, which may lie beside the triangle
-
-  Vec12 gradient() const;
-  Mat12 second_derivative() const;  // m
+// The places of the points of two segments that are nearest to each other, from 0 at the first end of a segment to 1 at
+// the second one: exactly 0 or 1 at ends.
+struct NearestPlaces {
+  double first, second;
 };
+using Segment = Eigen::Matrix<double, 3, 2>;  // ends as columns, m
+NearestPlaces nearest_places(const Segment& first, const Segment& second);
+
+// Whether a segment passes through a triangle. Segments in its plane do not.
+bool pierces(const Segment& segment, const Triangle& triangle);
 
 }  // namespace orthodyn

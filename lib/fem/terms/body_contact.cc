@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
-#include "lib/fem/contact/contact_surface.h"
+#include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/friction.h"
+#include "lib/fem/contact/node_blocks.h"
+#include "lib/fem/contact/passing_time.h"
 #include "lib/fem/contact/penalty.h"
 #include "lib/fem/term_choice.h"
-#include "lib/mesh/mesh_faces.h"
-#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 namespace {
@@ -45,14 +44,12 @@ class BodyContact : public Term {
 
   void add_force(const NodalState& s, NodalVector& f) const override {
     for_each_touch(s.x, [&](const Touch& touch, double stiffness) {
-      const Vec12 force = -stiffness * penalty_slope(touch.distance.r, law_.onset) * touch.distance.gradient();
-      const auto nodes = nodes_of(touch);
-      for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += force.segment<3>(3 * k);
-      if (!law_.friction.acts()) return;
-      const Vec3 drag =
-          law_.friction.force(relative_velocity(touch, s.v), touch.distance.n, pressing(touch, stiffness));
-      const Eigen::Vector4d share = shares(touch);
-      for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += share[k] * drag;
+      const Distance& distance = touch.distance;
+      Vec3 force = -pressing(touch, stiffness) * distance.n;
+      if (law_.friction.acts())
+        force += law_.friction.force(relative_velocity(distance, touch.nodes(), s.v), distance.n,
+                                     pressing(touch, stiffness));
+      add_pair_of_forces(distance, touch.nodes(), force, f);
     });
   }
 
@@ -63,13 +60,15 @@ class BodyContact : public Term {
       const Vec12 slope = touch.distance.gradient();
       Mat12 K = k * penalty_curvature(d, law_.onset) * slope * slope.transpose();
       if (kind == TangentKind::exact) K += k * penalty_slope(d, law_.onset) / d * touch.distance.second_derivative();
+      const FourNodes nodes = touch.nodes();
       add_blocks(
-          touch, [&](int i, int j) { return Mat3(K.block<3, 3>(3 * i, 3 * j)); }, stiffness);
+          pattern_, touch.distance, nodes, [&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); }, stiffness);
       if (!law_.friction.acts() || !damping) return;
-      const Eigen::Vector4d share = shares(touch);
-      const Mat3 D = law_.friction.damping(relative_velocity(touch, s.v), touch.distance.n, pressing(touch, k));
+      const Eigen::Vector4d& share = touch.distance.share;
+      const Mat3 D =
+          law_.friction.damping(relative_velocity(touch.distance, nodes, s.v), touch.distance.n, pressing(touch, k));
       add_blocks(
-          touch, [&](int i, int j) { return Mat3(share[i] * share[j] * D); }, damping);
+          pattern_, touch.distance, nodes, [&](int i, int j) { return share[i] * share[j] * D; }, damping);
     });
   }
 
@@ -77,7 +76,7 @@ class BodyContact : public Term {
     if (!law_.friction.acts()) return 0;
     double sum = 0;
     for_each_touch(s.x, [&](const Touch& touch, double k) {
-      const Vec3 velocity = relative_velocity(touch, s.v);
+      const Vec3 velocity = relative_velocity(touch.distance, touch.nodes(), s.v);
       sum -= velocity.dot(law_.friction.force(velocity, touch.distance.n, pressing(touch, k)));
     });
     return sum;
@@ -111,38 +110,14 @@ class BodyContact : public Term {
     return law_.stiffness * largest;
   }
 
- private:
-  static std::array<int, 4> nodes_of(const Touch& touch) {
-    return {touch.node, touch.triangle[0], touch.triangle[1], touch.triangle[2]};
+  double longest_step(const NodalState& s) const override {
+    return passing_time(first_, second_, law_.reach, s.x, s.v);
   }
 
-  // The shares of a node and of the corners of its triangle in a relative displacement.
-  static Eigen::Vector4d shares(const Touch& touch) {
-    const Vec3& L = touch.distance.L;
-    return {1, -L[0], -L[1], -L[2]};
-  }
-  static Vec3 relative_velocity(const Touch& touch, const NodalVector& v) {
-    const auto nodes = nodes_of(touch);
-    const Eigen::Vector4d share = shares(touch);
-    Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) sum += share[k] * v.col(nodes[static_cast<std::size_t>(k)]);
-    return sum;
-  }
+ private:
   // The normal force of a touch of the stiffness k A / 2, N.
   double pressing(const Touch& touch, double stiffness) const {
     return stiffness * penalty_slope(touch.distance.r, law_.onset);
-  }
-
-  // block(i, j): between the node (0) and the corners (1 to 3) of a touch.
-  template <class Block>
-  void add_blocks(const Touch& touch, Block&& block, double* values) const {
-    const auto nodes = nodes_of(touch);
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const int a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
-        if (pattern_.symmetric() && a < b) continue;
-        pattern_.add(a, b, pattern_.offset(a, b), block(i, j), values);
-      }
   }
 
   // visit(touch, k A / 2)
@@ -173,16 +148,6 @@ class BodyContact : public Term {
   const BlockPattern& pattern_;
 };
 
-// The outer faces of the cells of a region.
-std::vector<FaceCorners> outer_faces(const Mesh& mesh, int region) {
-  const std::vector<MeshFace> all = sorted_faces(mesh);
-  std::vector<FaceCorners> out;
-  for (std::size_t k = 0; k < all.size(); k = end_of_face(all, k))
-    if (end_of_face(all, k) == k + 1 && mesh.region_of[static_cast<std::size_t>(all[k].cell)] == region)
-      out.push_back(all[k].outward());
-  return out;
-}
-
 class BodyContactChoice : public TermChoice {
  public:
   static const Spec<BodyContactChoice>& spec() {
@@ -209,7 +174,8 @@ class BodyContactChoice : public TermChoice {
                  {.unit = "m", .range = kPositive})
             .check([](const C& contact, const Config& config) {
               if (contact.between_[0] == contact.between_[1])
-                config.at("between").fail("names one surface twice; contact of a surface with itself is not available");
+                config.at("between").fail(
+                    "names one surface twice; contact of a surface with itself needs the type barrier_contact");
             }),
         &C::friction_, &C::creep_);
     return s;
@@ -217,7 +183,7 @@ class BodyContactChoice : public TermChoice {
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
     ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1);
-    require_apart(first, second);
+    require_apart(first, second, between_, origin);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
     const ContactLaw law{
         stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}, slide_};
@@ -226,20 +192,7 @@ class BodyContactChoice : public TermChoice {
   }
 
   NodePairs couplings(const Mesh& mesh) const override {
-    constexpr std::size_t kMost = 1'000'000;
-    const ContactSurface first = surface(mesh, 0), second = surface(mesh, 1);
-    NodePairs pairs;
-    for (const auto& [a, area_of_a] : first.areas())
-      for (const auto& [b, area_of_b] : second.areas()) {
-        if (slide_ && (mesh.node(a) - mesh.node(b)).norm() > *slide_) continue;
-        pairs.emplace_back(a, b);
-        if (pairs.size() > kMost)
-          origin.fail(
-              fmt::format("more than {} pairs of nodes may touch: give `slide`, the largest distance at rest of "
-                          "nodes that touch later, or smaller surfaces",
-                          kMost));
-      }
-    return pairs;
+    return contact_couplings(mesh, surface(mesh, 0), surface(mesh, 1), slide_, origin);
   }
 
   void declare(Traits& traits) const override {
@@ -250,21 +203,7 @@ class BodyContactChoice : public TermChoice {
   SourceLocation origin;
 
  private:
-  ContactSurface surface(const Mesh& mesh, std::size_t k) const {
-    const auto& regions = mesh.region_names;
-    const auto region = std::find(regions.begin(), regions.end(), between_[k]);
-    if (mesh.surfaces.contains(between_[k]) || region == regions.end())
-      return {mesh, find_surface(mesh, between_[k], origin)};
-    return {mesh, outer_faces(mesh, static_cast<int>(region - regions.begin()))};
-  }
-
-  void require_apart(const ContactSurface& first, const ContactSurface& second) const {
-    std::map<int, double> nodes(first.areas().begin(), first.areas().end());
-    for (const auto& [node, area] : second.areas())
-      if (nodes.contains(node))
-        origin.fail(fmt::format("the surfaces '{}' and '{}' share nodes; choose surfaces of different bodies",
-                                between_[0], between_[1]));
-  }
+  ContactSurface surface(const Mesh& mesh, std::size_t k) const { return contact_surface(mesh, between_[k], origin); }
 
   std::array<std::string, 2> between_;
   double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;

@@ -14,10 +14,11 @@ namespace orthodyn {
 struct Outcome {
   enum class Status { completed, interrupted, failed };
   Status status = Status::completed;
-  std::string message;                 // of a failed run: what failed, where, what to try
-  std::string remark;                  // of a completed run that an event stopped: the event
-  Reason reason = Reason::other;       // of a failed run, for tables
-  std::optional<double> stepped_over;  // start of the first step much longer than Model::step_limits() allows, s
+  std::string message;                     // of a failed run: what failed, where, what to try
+  std::string remark;                      // of a completed run that an event stopped: the event
+  Reason reason = Reason::other;           // of a failed run, for tables
+  std::optional<double> may_pass_through;  // start of the first fixed step much longer than Model::longest_step(), s
+  std::optional<double> stepped_over;      // start of the first step much longer than Model::step_limits() allows, s
   // Time of a change of a load or support motion that is too short for the step limits: StepLimits::unresolved(), s.
   std::optional<double> unresolved_change;
   State last;                 // the last state reached

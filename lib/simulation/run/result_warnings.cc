@@ -88,6 +88,11 @@ void add_warnings(const Outcome& outcome, std::vector<std::string>& all) {
                 "the fixed step after t = {:.4g} s is longer than a load or a support motion allows, and misses part "
                 "of it. Lower integrator.step, or use error control (integrator.rtol)",
                 *outcome.stepped_over);
+  if (outcome.may_pass_through)
+    add_warning(all,
+                "the fixed step after t = {:.4g} s is so long that bodies may have passed through each other. Lower "
+                "integrator.step, or use error control (integrator.rtol)",
+                *outcome.may_pass_through);
   if (outcome.unresolved_change)
     add_warning(all,
                 "the formula of a load or a support jumps, or changes within less than 1/{} of the run, at t = {:.4g} "

@@ -106,7 +106,12 @@ class Driver {
       if (plan_.exact_times || !integrator_.has_accurate_interpolation()) limit = std::min(limit, outputs_.next());
       if (!integrator_.has_accurate_interpolation()) limit = std::min(limit, history_.next());
       if (integrator_.adaptive()) limit = std::min(limit, seen_until);
+      const double unseen = model_.longest_step(outcome_.last);
+      if (integrator_.adaptive() && std::isfinite(unseen))
+        limit = std::min(limit, begin + std::min(unseen, kGrowth * last_step_));
       StepInfo info = integrator_.step(limit);
+      if (info.t < limit || info.h > last_step_ || !std::isfinite(last_step_)) last_step_ = info.h;
+      if (!outcome_.may_pass_through && info.h > kGrowth * unseen) outcome_.may_pass_through = begin;
       if (!outcome_.stepped_over && info.t > seen_until + kLongStep * (seen_until - begin))
         outcome_.stepped_over = begin;
       outcome_.between_steps = false;
@@ -186,7 +191,10 @@ class Driver {
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
   static constexpr double kLongStep = 3;
+  // A body that starts from rest is at most three times as fast after a step that is twice as long as the last one.
+  static constexpr double kGrowth = 2;
 
+  double last_step_ = std::numeric_limits<double>::infinity();  // s
   double tiny_;  // outputs closer than this to a stop are moved to the stop, s
   StepLimits limits_;
   std::vector<double> stops_;

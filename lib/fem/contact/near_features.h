@@ -1,0 +1,41 @@
+// The places at which two surfaces, or parts of one surface, are closer than a gap, and whether surfaces cross.
+//
+// The distances of a node from all triangles within the gap are counted once, those from edges and corners shared by n
+// triangles as often as makes the sum 1 where one point of the surface is nearest: beside a plane or convex surface, a
+// node sees its nearest point alone; in a notch it sees both sides. So sums over all places have continuous forces.
+// Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman (2023), Convergent Incremental Potential
+// Contact, arXiv 2307.15908. Pairs of edges are each counted once.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lib/fem/contact/contact_surface.h"
+
+namespace orthodyn {
+
+struct NearPlace {
+  std::array<int, 4> nodes;  // a node and the corners of a triangle, or the ends of two edges
+  Distance distance;
+  double area;          // m^2, negative for distances that are counted too often
+  double parallel = 0;  // for edges: the sine of their angle, squared, times their squared lengths at rest, m^4,
+                        // below which they count less. 0: not edges
+};
+
+// The surfaces must outlive this object, and may be the same one.
+class NearFeatures {
+ public:
+  NearFeatures(const ContactSurface& first, const ContactSurface& second, double gap)
+      : first_(first), second_(second), gap_(gap) {}
+
+  // Throws RecoverableError if the surfaces cross at the positions x.
+  std::vector<NearPlace> at(const NodalVector& x) const;
+
+ private:
+  bool is_one() const { return &first_ == &second_; }
+
+  const ContactSurface &first_, &second_;
+  double gap_;  // m
+};
+
+}  // namespace orthodyn

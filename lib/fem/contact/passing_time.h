@@ -1,0 +1,13 @@
+// How long two surfaces need to pass through each other.
+#pragma once
+
+#include "lib/fem/contact/contact_surface.h"
+
+namespace orthodyn {
+
+// Half of the time (s) before a node of one surface, whose positions and velocities are x (m) and v (m/s), can be
+// `depth` (m) behind the box around the other one. Infinite if nothing moves. The surfaces may be the same one.
+double passing_time(const ContactSurface& first, const ContactSurface& second, double depth, const NodalVector& x,
+                    const NodalVector& v);
+
+}  // namespace orthodyn

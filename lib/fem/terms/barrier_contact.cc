@@ -1,0 +1,320 @@
+// Contact of two surfaces, or of a surface with itself, by a barrier: surfaces that never cross. A node at the distance
+// r < g from the other surface has the energy k A g^2 B(r/g)/2, with its area A, the stiffness k (Pa/m), the gap g and
+// the barrier B; two edges have one, too, that fades where they become parallel. Both surfaces are treated alike, so
+// that at the distance r the pressure is -k g B'(r/g). Forces are -grad of the energy: they have no resultant and no
+// torque. States in which surfaces cross have no force, so that integrators shorten their steps.
+// Source: Li et al. (2020), Incremental Potential Contact, ACM Trans. Graph. 39.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "lib/fem/contact/barrier.h"
+#include "lib/fem/contact/contact_input.h"
+#include "lib/fem/contact/friction.h"
+#include "lib/fem/contact/near_features.h"
+#include "lib/fem/contact/node_blocks.h"
+#include "lib/fem/contact/passing_time.h"
+#include "lib/fem/term_choice.h"
+
+namespace orthodyn {
+namespace {
+
+// How much a pair of edges counts, as a function of c, the square of the cross product of both, and its derivatives by
+// c: 1 above c0, falling to 0 at 0.
+struct EdgeWeight {
+  double value = 1, slope = 0, curvature = 0;
+
+  EdgeWeight() = default;
+  EdgeWeight(double c, double c0) {
+    if (c >= c0) return;
+    value = c / c0 * (2 - c / c0);
+    slope = 2 / c0 * (1 - c / c0);
+    curvature = -2 / (c0 * c0);
+  }
+};
+
+// The square of the cross product of two edges z_1 z_2 and z_3 z_4, with its derivatives by z.
+struct CrossProduct {
+  double square;
+  Vec12 gradient;
+  Mat12 curvature;
+
+  explicit CrossProduct(const Eigen::Matrix<double, 3, 4>& z) {
+    const Vec3 a = z.col(1) - z.col(0), b = z.col(3) - z.col(2);
+    const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
+    square = a.cross(b).squaredNorm();
+    using Vec6 = Eigen::Matrix<double, 6, 1>;
+    using Mat6 = Eigen::Matrix<double, 6, 6>;
+    const Vec6 slope = 2 * (Vec6() << bb * a - ab * b, aa * b - ab * a).finished();
+    Mat6 H;
+    H.topLeftCorner<3, 3>() = bb * Mat3::Identity() - b * b.transpose();
+    H.bottomRightCorner<3, 3>() = aa * Mat3::Identity() - a * a.transpose();
+    H.topRightCorner<3, 3>() = 2 * a * b.transpose() - b * a.transpose() - ab * Mat3::Identity();
+    H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
+    Eigen::Matrix<double, 6, 12> edges = Eigen::Matrix<double, 6, 12>::Zero();  // (a, b) of z
+    edges.block<3, 3>(0, 0) = edges.block<3, 3>(3, 6) = -Mat3::Identity();
+    edges.block<3, 3>(0, 3) = edges.block<3, 3>(3, 9) = Mat3::Identity();
+    gradient = edges.transpose() * slope;
+    curvature = 2 * edges.transpose() * H * edges;
+  }
+};
+
+struct BarrierLaw {
+  double stiffness = 0;  // Pa/m
+  double gap = 0;        // m
+  Friction friction = {};
+  std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
+};
+
+class BarrierContact : public Term {
+ public:
+  // `second` is empty for contact of a surface with itself. The pattern must outlive the term.
+  BarrierContact(std::string name, const BarrierLaw& law, ContactSurface first, std::optional<ContactSurface> second,
+                 const NodalVector& rest, const BlockPattern& pattern)
+      : name_(std::move(name)),
+        law_(law),
+        first_(std::move(first)),
+        second_(std::move(second)),
+        near_(first_, second_ ? *second_ : first_, law.gap),
+        pattern_(pattern) {
+    if (law.slide) rest_ = rest;
+  }
+  BarrierContact(const BarrierContact&) = delete;
+  BarrierContact& operator=(const BarrierContact&) = delete;
+
+  std::string name() const override { return name_; }
+  std::string description() const override {
+    return fmt::format("{}: {} nodes, {:.6g} Pa/m, gap {:.4g} m", name_,
+                       first_.areas().size() + (second_ ? second_->areas().size() : 0), law_.stiffness, law_.gap);
+  }
+  std::size_t bytes() const override { return first_.bytes() + (second_ ? second_->bytes() : 0); }
+
+  void add_force(const NodalState& s, NodalVector& f) const override {
+    for (const NearPlace& place : places(s.x)) {
+      const EdgeWeight weight = weight_of(place);
+      Vec3 force = pressing(place, weight) * place.distance.n;
+      if (law_.friction.acts())
+        force += law_.friction.force(relative_velocity(place.distance, place.nodes, s.v), place.distance.n,
+                                     pressing(place, weight));
+      add_pair_of_forces(place.distance, place.nodes, force, f);
+      if (weight.slope == 0) continue;
+      const Vec12 turn = -energy_of(place) * weight.slope * CrossProduct(place.distance.z).gradient;
+      for (int k = 0; k < 4; ++k) f.col(place.nodes[static_cast<std::size_t>(k)]) += turn.segment<3>(3 * k);
+    }
+  }
+
+  void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
+    for (const NearPlace& place : places(s.x)) {
+      const EdgeWeight weight = weight_of(place);
+      const Mat12 K = kind == TangentKind::exact ? exact(place, weight) : definite(place, weight);
+      const auto add = [&](const auto& block, double* values) {
+        add_blocks(pattern_, place.distance, place.nodes, block, values);
+      };
+      add([&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); }, stiffness);
+      if (!law_.friction.acts() || !damping) continue;
+      const Eigen::Vector4d& share = place.distance.share;
+      const Mat3 D = law_.friction.damping(relative_velocity(place.distance, place.nodes, s.v), place.distance.n,
+                                           pressing(place, weight));
+      add([&](int i, int j) { return share[i] * share[j] * D; }, damping);
+    }
+  }
+
+  double dissipation(const NodalState& s) const override {
+    if (!law_.friction.acts()) return 0;
+    double sum = 0;
+    for (const NearPlace& place : places(s.x)) {
+      const Vec3 velocity = relative_velocity(place.distance, place.nodes, s.v);
+      sum -= velocity.dot(law_.friction.force(velocity, place.distance.n, pressing(place, weight_of(place))));
+    }
+    return sum;
+  }
+
+  bool has_mean_force() const override { return false; }
+
+  EnergyKind energy_kind() const override { return EnergyKind::elastic; }
+
+  double energy(const NodalState& s) const override {
+    double sum = 0;
+    for (const NearPlace& place : places(s.x)) sum += weight_of(place).value * energy_of(place);
+    return sum;
+  }
+
+  // An estimate: that of the penalty of contact with the stiffness at half of the gap.
+  void add_stiffness_bound(Vector& row_sums) const override {
+    const double k = law_.stiffness * barrier_curvature(0.5);
+    const ContactSurface& second = second_ ? *second_ : first_;
+    for (const auto& [own, other] : {std::pair(&first_, &second), std::pair(&second, &first_)})
+      for (const auto& [node, area] : own->areas()) row_sums[node] += k * (7 * area + largest_area(*other));
+  }
+
+  double contact_stiffness() const override {
+    return law_.stiffness * std::max(largest_area(first_), second_ ? largest_area(*second_) : 0);
+  }
+
+  // States in which surfaces cross are refused: half of a cell is less than a body.
+  double longest_step(const NodalState& s) const override {
+    const ContactSurface& other = second_ ? *second_ : first_;
+    return passing_time(first_, other, (first_.mean_edge() + other.mean_edge()) / 4, s.x, s.v);
+  }
+
+ private:
+  static double largest_area(const ContactSurface& surface) {
+    double largest = 0;
+    for (const auto& [node, area] : surface.areas()) largest = std::max(largest, area);
+    return largest;
+  }
+
+  std::vector<NearPlace> places(const NodalVector& x) const {
+    std::vector<NearPlace> out = near_.at(x);
+    if (law_.slide)
+      for (const NearPlace& place : out) require_near(place);
+    return out;
+  }
+
+  void require_near(const NearPlace& place) const {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        if (const double apart = (rest_.col(place.nodes[i]) - rest_.col(place.nodes[j])).norm(); apart > *law_.slide)
+          throw RecoverableError(
+              fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
+  }
+
+  static EdgeWeight weight_of(const NearPlace& place) {
+    if (place.parallel == 0) return {};
+    const auto& z = place.distance.z;
+    return {Vec3(z.col(1) - z.col(0)).cross(Vec3(z.col(3) - z.col(2))).squaredNorm(), place.parallel};
+  }
+  double relative(const NearPlace& place) const { return place.distance.r / law_.gap; }
+  // J, without the weight of edges
+  double energy_of(const NearPlace& place) const {
+    return law_.stiffness * place.area / 2 * law_.gap * law_.gap * barrier(relative(place));
+  }
+  // The force along the normal, N; negative for places that are counted too often.
+  double pressing(const NearPlace& place, const EdgeWeight& weight) const {
+    return -weight.value * law_.stiffness * place.area / 2 * law_.gap * barrier_slope(relative(place));
+  }
+
+  Mat12 definite(const NearPlace& place, const EdgeWeight& weight) const {
+    if (place.area < 0) return Mat12::Zero();
+    const Vec12 slope = place.distance.gradient();
+    return weight.value * law_.stiffness * place.area / 2 * barrier_curvature(relative(place)) * slope *
+           slope.transpose();
+  }
+
+  Mat12 exact(const NearPlace& place, const EdgeWeight& weight) const {
+    const double k = law_.stiffness * place.area / 2, s = relative(place);
+    const Vec12 slope = place.distance.gradient();
+    Mat12 K =
+        weight.value * k *
+        (barrier_curvature(s) * slope * slope.transpose() + barrier_slope(s) / s * place.distance.second_derivative());
+    if (weight.slope == 0) return K;
+    const CrossProduct c(place.distance.z);
+    const Mat12 mixed = c.gradient * slope.transpose();
+    K += energy_of(place) * (weight.curvature * c.gradient * c.gradient.transpose() + weight.slope * c.curvature) +
+         weight.slope * k * law_.gap * barrier_slope(s) * (mixed + mixed.transpose());
+    return K;
+  }
+
+  std::string name_;
+  BarrierLaw law_;
+  ContactSurface first_;
+  std::optional<ContactSurface> second_;
+  NearFeatures near_;
+  NodalVector rest_;  // m; empty without `slide`
+  const BlockPattern& pattern_;
+};
+
+class BarrierContactChoice : public TermChoice {
+ public:
+  static const Spec<BarrierContactChoice>& spec() {
+    using C = BarrierContactChoice;
+    static const auto s = with_friction(
+        Spec<C>()
+            .key("between", &C::between_,
+                 "Two surfaces that can touch, or twice the same surface for contact with itself; a region stands for "
+                 "its whole outer surface.",
+                 {.required = true})
+            .key("stiffness", &C::stiffness_,
+                 "Pressure per distance: at half of the gap, the pressure is 1.2 times the stiffness times the gap. It "
+                 "grows without limit where surfaces get nearer.",
+                 {.required = true, .unit = "Pa/m", .range = kPositive})
+            .key("gap", &C::gap_,
+                 "Distance at which contact sets in; default a twentieth of the mean cell edge, or half of the least "
+                 "distance at rest.",
+                 {.unit = "m", .range = kPositive})
+            .key("slide", &C::slide_,
+                 "Largest distance at rest of nodes that touch later, with all nodes of the faces that they touch. It "
+                 "saves memory; a run stops where it is too small. Default: no limit.",
+                 {.unit = "m", .range = kPositive}),
+        &C::friction_, &C::creep_);
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    ContactSurface first = contact_surface(body.mesh, between_[0], origin);
+    std::optional<ContactSurface> second;
+    if (!is_of_one()) {
+      second = contact_surface(body.mesh, between_[1], origin);
+      require_apart(first, *second, between_, origin);
+    }
+    const BarrierLaw law{
+        stiffness_, allowed_gap(first, second ? *second : first, body.rest), {friction_, creep_}, slide_};
+    const std::string name = is_of_one() ? fmt::format("barrier contact of {} with itself", between_[0])
+                                         : fmt::format("barrier contact of {} and {}", between_[0], between_[1]);
+    return std::make_unique<BarrierContact>(name, law, std::move(first), std::move(second), body.rest, body.pattern);
+  }
+
+  NodePairs couplings(const Mesh& mesh) const override {
+    const ContactSurface first = contact_surface(mesh, between_[0], origin);
+    if (is_of_one()) return contact_couplings(mesh, first, first, slide_, origin);
+    return contact_couplings(mesh, first, contact_surface(mesh, between_[1], origin), slide_, origin);
+  }
+
+  void declare(Traits& traits) const override {
+    traits.linear = traits.smooth = false;
+    Friction{friction_, creep_}.declare(traits);
+  }
+
+  SourceLocation origin;
+
+ private:
+  bool is_of_one() const { return between_[0] == between_[1]; }
+
+  // The gap, m. The surfaces must not cross or touch at rest, and those of one body must be farther apart than the gap.
+  double allowed_gap(const ContactSurface& first, const ContactSurface& second, const NodalVector& rest) const {
+    constexpr double kOfEdge = 0.05;
+    const double usual = kOfEdge * std::min(first.mean_edge(), second.mean_edge());
+    const double searched = gap_.value_or(2 * usual);
+    double least = std::numeric_limits<double>::infinity();
+    try {
+      for (const NearPlace& place : NearFeatures(first, second, searched).at(rest))
+        least = std::min(least, place.distance.r);
+    } catch (const RecoverableError& e) {
+      origin.fail(
+          fmt::format("{} at rest: this contact needs surfaces that are apart; move one of them, or use the "
+                      "type contact",
+                      e.what()));
+    }
+    if (!gap_) return std::min(usual, least / 2);
+    if (is_of_one() && least < *gap_)
+      origin.fail(
+          fmt::format("parts of '{}' are {:.3g} m apart at rest, less than the gap of {:.3g} m; choose a "
+                      "smaller gap",
+                      between_[0], least, *gap_));
+    return *gap_;
+  }
+
+  std::array<std::string, 2> between_;
+  double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
+  std::optional<double> gap_, slide_;
+};
+
+const bool barrier_contact_registered = Registry<TermChoice>::add<BarrierContactChoice>(
+    "barrier_contact",
+    "Two surfaces, or a surface and itself, that never cross: a barrier before they touch, also between edges, with or "
+    "without friction.");
+
+}  // namespace
+}  // namespace orthodyn
