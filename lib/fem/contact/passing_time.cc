@@ -10,7 +10,7 @@ namespace {
 
 double passing_time_of_nodes(const ContactSurface& own, const ContactSurface& other, double depth, const NodalVector& x,
                              const NodalVector& v) {
-  constexpr double kSafety = 0.5;
+  constexpr double kSafety = 0.4;  // the mean velocity of a step may be 2.5 times that at its start
   Eigen::AlignedBox3d box;
   Vec3 mean = Vec3::Zero();
   for (const auto& [node, area] : other.areas()) {

@@ -191,8 +191,9 @@ class Driver {
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
   static constexpr double kLongStep = 3;
-  // A body that starts from rest is at most three times as fast after a step that is twice as long as the last one.
-  static constexpr double kGrowth = 2;
+  // At the end of a step, libraries shorten the next one to the rest of the way to this limit: by four, steps may grow
+  // to three times the last one. A body under a constant force is then at most four times as fast after a step.
+  static constexpr double kGrowth = 4;
 
   double last_step_ = std::numeric_limits<double>::infinity();  // s
   double tiny_;  // outputs closer than this to a stop are moved to the stop, s
