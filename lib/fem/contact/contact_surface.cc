@@ -104,7 +104,7 @@ Triangle PlacedSurface::corners(int triangle) const {
   return out;
 }
 
-std::optional<Touch> PlacedSurface::touch_of(int node) const {
+std::optional<Touch> PlacedSurface::touch_of(int node, AtBoundary boundary) const {
   constexpr double kSame = 1e-9;  // distances of triangles that share the nearest point, relative to the reach
   const Vec3 x = x_.col(node);
   if (!((x - low_).minCoeff() >= -reach_ && (high_ - x).minCoeff() >= -reach_)) return std::nullopt;
@@ -144,6 +144,7 @@ std::optional<Touch> PlacedSurface::touch_of(int node) const {
   const Triangle t = corners(nearest->triangle);
   const Vec3 inward = -area_vector(t).normalized();
   if (surface_.is_on_boundary(nodes, nearest->L)) {
+    if (boundary == AtBoundary::left_out) return std::nullopt;
     // Beside an open surface, its planes reach a little farther: nodes that are exactly below its boundary touch.
     constexpr double kBeside = 0.1;  // barycentric coordinate
     const Vec3 foot = foot_on_plane(x, t);

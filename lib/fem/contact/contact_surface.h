@@ -61,8 +61,9 @@ class PlacedSurface {
   PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach);
 
   // The nearest point of the surface to a node that lies below the surface; empty for other nodes, and for nodes beside
-  // an open surface.
-  std::optional<Touch> touch_of(int node) const;
+  // an open surface. Nodes below its boundary touch, or are left out.
+  enum class AtBoundary { touches, left_out };
+  std::optional<Touch> touch_of(int node, AtBoundary boundary = AtBoundary::touches) const;
 
  private:
   struct Placed {

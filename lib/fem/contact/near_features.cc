@@ -248,6 +248,14 @@ std::optional<int> crossing(const ContactSurface& own, const SearchedSurface& ot
   return found;
 }
 
+// A node of `own` that is less than half a cell below the other surface.
+std::optional<int> node_below(const ContactSurface& own, const ContactSurface& other, const NodalVector& x) {
+  const PlacedSurface placed(other, x, other.mean_edge() / 2);
+  for (const auto& [node, area] : own.areas())
+    if (placed.touch_of(node, PlacedSurface::AtBoundary::left_out)) return node;
+  return std::nullopt;
+}
+
 Box box_of(const ContactSurface& surface, const NodalVector& x) {
   Box box;
   for (const auto& [node, area] : surface.areas()) box.extend(Vec3(x.col(node)));
@@ -264,6 +272,8 @@ std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   if (!is_one()) first.emplace(first_, x);
   std::optional<int> crossed = crossing(first_, second);
   if (!crossed && first) crossed = crossing(second_, *first);
+  if (!crossed && first) crossed = node_below(first_, second_, x);
+  if (!crossed && first) crossed = node_below(second_, first_, x);
   if (crossed) throw RecoverableError(fmt::format("surfaces cross near node {}", *crossed));
   add_nodes(first_, second, gap_, out);
   if (first) add_nodes(second_, *first, gap_, out);

@@ -28,7 +28,8 @@ class NearFeatures {
   NearFeatures(const ContactSurface& first, const ContactSurface& second, double gap)
       : first_(first), second_(second), gap_(gap) {}
 
-  // Throws RecoverableError if the surfaces cross at the positions x.
+  // Throws RecoverableError if the surfaces cross at the positions x: if an edge passes through a triangle, or a node
+  // is less than half a cell below the other surface, away from its boundary.
   std::vector<NearPlace> at(const NodalVector& x) const;
 
  private:
