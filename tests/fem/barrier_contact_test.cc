@@ -296,7 +296,7 @@ TEST(BarrierContact, IsRefusedWithTheReason) {
   };
   EXPECT_EQ(message(blocks("cells: [2, 2, 1]", 0.03, 0.1)), "accepted");
   EXPECT_THAT(message(blocks("cells: [2, 2, 1]", 0, 0.1)), HasSubstr("at rest"));
-  EXPECT_THAT(message(blocks("cells: [2, 2, 1]", -0.1, 0.1)), HasSubstr("cross"));
+  EXPECT_THAT(message(blocks("cells: [2, 2, 1]", -0.05, 0.1)), HasSubstr("cross"));
   EXPECT_EQ(message(ring_of("")), "accepted");
   EXPECT_THAT(message(ring_of(", gap: 0.2")), HasSubstr("choose a smaller gap"));
 }

@@ -118,11 +118,12 @@ std::optional<Touch> PlacedSurface::touch_of(int node, AtBoundary boundary) cons
   auto at = std::lower_bound(order_.begin(), order_.end(), Placed{x[axis_] - reach_ - widest_, 0});
   for (; at != order_.end() && at->low <= x[axis_] + reach_; ++at) {
     const Triangle t = corners(at->triangle);
-    if (((t.rowwise().minCoeff() - x).array() > least).any() || ((x - t.rowwise().maxCoeff()).array() > least).any())
+    const double sought = least + kSame * reach_;
+    if (((t.rowwise().minCoeff() - x).array() > sought).any() || ((x - t.rowwise().maxCoeff()).array() > sought).any())
       continue;
     const Vec3 L = nearest_point(x, t);
     const double r = (x - t * L).norm();
-    if (r > least + kSame * reach_) continue;
+    if (r > sought) continue;
     least = std::min(least, r);
     found.push_back({r, at->triangle, L});
   }

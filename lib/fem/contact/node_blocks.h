@@ -22,14 +22,14 @@ inline void add_pair_of_forces(const Distance& distance, const FourNodes& nodes,
   for (int k = 0; k < 4; ++k) f.col(nodes[static_cast<std::size_t>(k)]) += distance.share[k] * force;
 }
 
-// block(i, j): the 3 x 3 matrix between two of the four nodes.
-template <class Block>
-void add_blocks(const BlockPattern& pattern, const Distance& distance, const FourNodes& nodes, Block&& block,
+// block(i, j): the 3 x 3 matrix between two of the four nodes. `place.has_node(k)` is false for nodes without one.
+template <class Place, class Block>
+void add_blocks(const BlockPattern& pattern, const Place& place, const FourNodes& nodes, Block&& block,
                 double* values) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       const int a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
-      if (!distance.has_node(i) || !distance.has_node(j) || (pattern.symmetric() && a < b)) continue;
+      if (!place.has_node(i) || !place.has_node(j) || (pattern.symmetric() && a < b)) continue;
       pattern.add(a, b, pattern.offset(a, b), Mat3(block(i, j)), values);
     }
 }

@@ -110,7 +110,7 @@ class BarrierContact : public Term {
       const EdgeWeight weight = weight_of(place);
       const Mat12 K = kind == TangentKind::exact ? exact(place, weight) : definite(place, weight);
       const auto add = [&](const auto& block, double* values) {
-        add_blocks(pattern_, place.distance, place.nodes, block, values);
+        add_blocks(pattern_, place, place.nodes, block, values);
       };
       add([&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); }, stiffness);
       if (!law_.friction.acts() || !damping) continue;
