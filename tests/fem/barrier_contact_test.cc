@@ -303,12 +303,17 @@ TEST(BarrierContact, IsRefusedWithTheReason) {
 
 // Bodies that approach at 2 m/s may move 0.4 of the way to the middle of a cell.
 TEST(PassingTime, FollowsFromDistanceAndSpeed) {
-  const BuiltTestScene s(blocks("cells: [1, 1, 1], elements: hexahedra, order: 1", 1, 0));
+  std::string yaml = blocks("cells: [1, 1, 1], elements: hexahedra, order: 1", 1, 0);
+  yaml.replace(yaml.find("[0.37, 0.03,"), 12, "[0.2, 0.2,");
+  const BuiltTestScene s(yaml);
   const ContactSurface lower(s.mesh(), s.mesh().surfaces.at("lower.z1")),
       upper(s.mesh(), s.mesh().surfaces.at("upper.z0"));
   NodalVector x = s.positions(s.zero()), v = NodalVector::Zero(3, x.cols());
   EXPECT_EQ(passing_time(lower, upper, 0.5, x, v), std::numeric_limits<double>::infinity());
   for (const auto& [node, area] : upper.areas()) v(2, node) = -2;
+  EXPECT_NEAR(passing_time(lower, upper, 0.5, x, v), 0.4 * (1 + 0.5) / 2, 1e-12);
+  // A rotation of both about the axis z does not count.
+  for (Eigen::Index i = 0; i < x.cols(); ++i) v.col(i) += 50 * Vec3::UnitZ().cross(Vec3(x.col(i)));
   EXPECT_NEAR(passing_time(lower, upper, 0.5, x, v), 0.4 * (1 + 0.5) / 2, 1e-12);
 }
 
