@@ -75,6 +75,12 @@ bool ContactSurface::is_on_boundary(const Corners& triangle, const Vec3& L) cons
   return nodes.size() == 2 && boundary_edges_.contains({std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])});
 }
 
+Eigen::AlignedBox3d ContactSurface::box(const NodalVector& x) const {
+  Eigen::AlignedBox3d box;
+  for (const auto& [node, area] : areas_) box.extend(Vec3(x.col(node)));
+  return box;
+}
+
 std::size_t ContactSurface::bytes() const {
   return areas_.capacity() * sizeof(areas_[0]) + triangles_.capacity() * sizeof(Corners) +
          edges_.capacity() * sizeof(Edge);

@@ -2,6 +2,7 @@
 // quadratic face also have the nodes in the middle of edges and of quadrilaterals as corners.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <set>
@@ -32,6 +33,9 @@ class ContactSurface {
 
   // Whether the point with these barycentric coordinates lies on the boundary of the surface.
   bool is_on_boundary(const Corners& triangle, const Vec3& L) const;
+
+  // The box around the nodes at the positions x.
+  Eigen::AlignedBox3d box(const NodalVector& x) const;
 
   std::size_t bytes() const;
 

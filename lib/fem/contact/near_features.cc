@@ -256,17 +256,11 @@ std::optional<int> node_below(const ContactSurface& own, const ContactSurface& o
   return std::nullopt;
 }
 
-Box box_of(const ContactSurface& surface, const NodalVector& x) {
-  Box box;
-  for (const auto& [node, area] : surface.areas()) box.extend(Vec3(x.col(node)));
-  return box;
-}
-
 }  // namespace
 
 std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   std::vector<NearPlace> out;
-  if (!is_one() && !grown(box_of(first_, x), gap_).intersects(box_of(second_, x))) return out;
+  if (!is_one() && !grown(first_.box(x), gap_).intersects(second_.box(x))) return out;
   const SearchedSurface second(second_, x);
   std::optional<SearchedSurface> first;
   if (!is_one()) first.emplace(first_, x);

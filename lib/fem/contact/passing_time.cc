@@ -1,6 +1,5 @@
 #include "lib/fem/contact/passing_time.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
@@ -10,9 +9,9 @@ namespace orthodyn {
 namespace {
 
 // The rigid motion that fits the velocities of nodes best.
-class RigidMotion {
+class CommonMotion {
  public:
-  RigidMotion(const std::vector<int>& nodes, const NodalVector& x, const NodalVector& v) {
+  CommonMotion(const std::vector<int>& nodes, const NodalVector& x, const NodalVector& v) {
     for (const int node : nodes) {
       centre_ += x.col(node) / static_cast<double>(nodes.size());
       velocity_ += v.col(node) / static_cast<double>(nodes.size());
@@ -32,12 +31,6 @@ class RigidMotion {
   Vec3 centre_ = Vec3::Zero(), velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();  // m, m/s, rad/s
 };
 
-Eigen::AlignedBox3d box_around(const ContactSurface& surface, const NodalVector& x) {
-  Eigen::AlignedBox3d box;
-  for (const auto& [node, area] : surface.areas()) box.extend(Vec3(x.col(node)));
-  return box;
-}
-
 }  // namespace
 
 // Two nodes are at least as far apart as each of them is from the box around the other surface. So they pass after the
@@ -48,10 +41,10 @@ double passing_time(const ContactSurface& first, const ContactSurface& second, d
   std::vector<int> nodes;
   for (const ContactSurface* surface : {&first, &second})
     for (const auto& [node, area] : surface->areas()) nodes.push_back(node);
-  const RigidMotion together(nodes, x, v);
+  const CommonMotion together(nodes, x, v);
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [own, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
-    const Eigen::AlignedBox3d box = box_around(*other, x);
+    const Eigen::AlignedBox3d box = other->box(x);
     for (const auto& [node, area] : own->areas()) {
       const double speed = (v.col(node) - together.at(x.col(node))).norm();
       if (speed > 0) least = std::min(least, (box.exteriorDistance(Vec3(x.col(node))) + depth) / (2 * speed));
