@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/terms/joint_load.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/scene/added_laws.h"
 #include "lib/scene/elastic_parts.h"
@@ -225,17 +226,21 @@ std::vector<Joint> joints_of(const Scene& scene, const Mesh& mesh, const std::ve
 // The joints of the scene come first in `joints` here and in Parts::joints below; those of rigid bodies follow.
 void add_joint_couplings(const Scene& scene, const std::vector<Joint>& joints, NodePairs& pairs) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    if (!scene.joints[k].law().acts()) continue;
-    const NodePairs own = joint_couplings(*joints[k].coordinate);
+    if (!scene.joints[k].has_forces()) continue;
+    const NodePairs own = CoordinateNodes(*joints[k].coordinate).pairs();
     pairs.insert(pairs.end(), own.begin(), own.end());
   }
 }
 
 void add_joint_forces(const Scene& scene, FemModel::Parts& parts) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    const JointLaw law = scene.joints[k].law();
-    if (law.acts())
-      parts.loads.push_back(joint_forces_term(scene.joints[k].name, *parts.joints[k].coordinate, law, *parts.pattern));
+    const JointInput& joint = scene.joints[k];
+    const auto& coordinate = parts.joints[k].coordinate;
+    if (const JointLaw law = joint.law(); law.acts())
+      parts.loads.push_back(joint_forces_term(joint.name, *coordinate, law, *parts.pattern));
+    if (joint.load)
+      parts.loads.push_back(
+          joint_load_term(joint.name, *coordinate, joint.load->amount, joint.load->factor, *parts.pattern));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lib/fem/terms/dead_load.h"
 #include "lib/scene/output_files.h"
 
 namespace orthodyn {
@@ -65,6 +66,15 @@ const Spec<JointFriction>& JointFriction::spec() {
   return s;
 }
 
+const Spec<JointLoading>& JointLoading::spec() {
+  static const auto s =
+      Spec<JointLoading>()
+          .key("amount", &JointLoading::amount,
+               "Force along the line (N), or torque about it (N m), on the first body at factor 1.", {.required = true})
+          .key("factor", &JointLoading::factor, "Factor in time.", {.fallback = "{type: constant}"});
+  return s;
+}
+
 const Spec<JointDrive>& JointDrive::spec() {
   static const auto s =
       Spec<JointDrive>()
@@ -82,12 +92,13 @@ namespace {
 
 void check_drive(const JointInput& joint, const Config& config) {
   const std::string unit = joint.turns() ? "rad" : "m";
-  for (const char* key : {"spring", "stop", "friction", "motor"})
+  for (const char* key : {"spring", "stop", "friction", "load", "motor"})
     if (config.has(key) && !joint.turns() && !joint.slides())
       config.at(key).fail("is for joints of type hinge, slot, cylindrical and slider");
   const auto require = [&](const char* section, const char* key, const QuantityValue& value) {
     if (config.at(section).has(key)) value.require(unit, {config.at(section).at(key).where()});
   };
+  if (joint.load) joint.load->amount.require(joint.turns() ? "N m" : "N", {config.at("load").at("amount").where()});
   if (joint.spring) require("spring", "rest", joint.spring->rest);
   if (joint.turns()) {
     constexpr double kHalfTurn = 3.14159265358979;
@@ -156,6 +167,7 @@ const Spec<JointInput>& JointInput::spec() {
               "its angle about it by the right-hand rule, from the rest shape.")
           .key("stop", &J::stop, "Limits of the coordinate.")
           .key("friction", &J::friction, "Friction against changes of the coordinate.")
+          .key("load", &J::load, "Force or torque along the coordinate, on the first body.")
           .key("motor", &J::motor, "The coordinate is prescribed in time.")
           .check(check_joint);
   return s;
@@ -175,6 +187,10 @@ JointLaw JointInput::law() const {
 void JointInput::declare(Traits& traits) const {
   if (motor) traits.loaded = traits.time_dependent = true;
   if (motor) traits.conservative = false;
+  if (load) {
+    declare_load(*load->factor, traits);
+    traits.linear = false;
+  }
   if (!law().acts()) return;
   traits.linear = false;
   if (stop) traits.smooth = false;
@@ -257,7 +273,7 @@ void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
   };
   if (ends.are_rigid()) out.equations = {coincide(from), across(side), across(other)};
   else out.equations = {coincide(from), coincide(to)};
-  const bool is_used = joint.motor || joint.law().acts();
+  const bool is_used = joint.motor || joint.has_forces();
   if (!is_used && !(ends.can_hold(from + side) && ends.can_hold(from + other))) return;
   out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
                                             ends.second(from + side), ends.second(from + other));

@@ -37,8 +37,8 @@ struct JointEnd : Selection {
   static const Spec<JointEnd>& spec();
 };
 
-// Spring, stops, friction and motor of a joint along its coordinate: lib/fem/terms/joint_forces.h, JointMotor. Values
-// in m and N, or in rad and N m.
+// Spring, stops, friction, load and motor of a joint along its coordinate: lib/fem/terms/joint_forces.h and
+// joint_load.h, JointMotor. Values in m and N, or in rad and N m.
 struct JointSpring {
   double stiffness = 0, damping = 0;
   QuantityValue rest;
@@ -53,6 +53,11 @@ struct JointFriction {
   double limit = 0;
   std::optional<double> creep;
   static const Spec<JointFriction>& spec();
+};
+struct JointLoading {
+  QuantityValue amount;
+  std::shared_ptr<const TimeFunction> factor;
+  static const Spec<JointLoading>& spec();
 };
 struct JointDrive {
   QuantityValue to;
@@ -71,6 +76,7 @@ struct JointInput {
   std::optional<JointSpring> spring;
   std::optional<JointStop> stop;
   std::optional<JointFriction> friction;
+  std::optional<JointLoading> load;
   std::optional<JointDrive> motor;
   SourceLocation origin;
   static const Spec<JointInput>& spec();
@@ -78,6 +84,8 @@ struct JointInput {
   bool turns() const { return type == JointType::hinge; }
   bool slides() const { return type == JointType::slot || type == JointType::cylindrical || type == JointType::slider; }
   JointLaw law() const;
+  // Whether the joint has forces along its coordinate, apart from those of a motor.
+  bool has_forces() const { return load || law().acts(); }
   void declare(Traits& traits) const;
 
   // From `start` to `end` (s). Nodes of a rigid body hold any point. Throws ConfigError if a point cannot be held

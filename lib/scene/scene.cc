@@ -163,6 +163,8 @@ void for_each_factor(const Config& config, const Scene& scene,
   for (std::size_t k = 0; k < scene.loads.size(); ++k) check(*scene.loads[k].factor, config.at("loads").at(k));
   for (std::size_t k = 0; k < scene.terms.size(); ++k)
     if (const TimeFunction* factor = scene.terms[k]->factor_in_time()) check(*factor, config.at("terms").at(k));
+  for (std::size_t k = 0; k < scene.joints.size(); ++k)
+    if (scene.joints[k].load) check(*scene.joints[k].load->factor, config.at("joints").at(k).at("load"));
 }
 
 void refuse_harmonic_factors(const Config& config, const Scene& scene) {

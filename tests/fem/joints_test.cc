@@ -213,6 +213,54 @@ TEST_P(JointForces, CancelAndDissipate) {
   EXPECT_NEAR(term.dissipation(nodal.state()), -power, 1e-13);
 }
 
+// A load along the coordinate of a hinge and of a slider.
+class JointLoads : public testing::TestWithParam<std::string> {
+ protected:
+  static constexpr double kTime = 0.4;
+  BuiltTestScene s{
+      two_bars(fmt::format("{{type: {}, name: rail, from: [0.5, 0.1, 0.1], to: [1.2, 0.5, 0.1], load: {{amount: 3, "
+                           "factor: {{type: expression, formula: 'sin(3*t)'}}}}, {}",
+                           GetParam(), kAllNodes))};
+  const Term& term = *s.model().parts().loads.back();
+  const double size = 3 * std::sin(3 * kTime);  // N or N m
+  Path path{s};
+
+  NodalExpansion nodal(double t) const { return {s.model().parts(), kTime, path.at(t), path.rate(t)}; }
+  Vector force(double t) const {
+    NodalVector f = NodalVector::Zero(3, nodal(t).u.cols());
+    term.add_force(nodal(t).state(), f);
+    Vector out(s.size());
+    s.model().parts().dofs->restrict_forces_to(f, out);
+    return out;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Types, JointLoads, testing::Values("hinge", "slot", "cylindrical", "slider"));
+
+// The force is the gradient of its amount times the coordinate, and its power the amount times the rate.
+TEST_P(JointLoads, ActAlongTheCoordinate) {
+  const JointCoordinate& coordinate = *s.model().parts().joints[0].coordinate;
+  expect_derivative([&](double t) { return one(size * coordinate.value(nodal(t).u)); }, one(force(0).dot(path.v)));
+  const NodalExpansion now = nodal(0);
+  EXPECT_NEAR(term.load_power(now.state()), force(0).dot(path.v), 1e-12 * std::abs(size));
+  EXPECT_NEAR(term.load_power(now.state()), size * coordinate.rate(now.u, now.u_rate), 1e-13 * std::abs(size));
+  EXPECT_EQ(term.dissipation(now.state()), 0);
+}
+
+TEST_P(JointLoads, HaveTheirTangent) {
+  std::vector<double> K(s.model().pattern().row.size(), 0);
+  term.add_tangent(nodal(0).state(), TangentKind::exact, K.data(), nullptr);
+  Vector change(s.size());
+  s.model().pattern().multiply(K.data(), path.v, change);
+  expect_derivative([&](double t) { return force(t); }, -change);
+}
+
+TEST_P(JointLoads, Cancel) {
+  const NodalExpansion now = nodal(0);
+  NodalVector f = NodalVector::Zero(3, now.u.cols());
+  term.add_force(now.state(), f);
+  expect_no_resultant(now.x, f);
+}
+
 // The coordinate of a hinge is the angle of the rotation about its line, by the right-hand rule; the coordinate of a
 // slider is the distance along its line.
 TEST(JointCoordinates, MeasureAngleAndDistance) {
@@ -280,6 +328,10 @@ TEST(Joints, AreRefusedWithTheReason) {
   EXPECT_THAT(message(rail + "stop: {stiffness: 1}, " + kAllNodes), HasSubstr("low"));
   EXPECT_THAT(message(rail + "motor: " + kMotor + ", spring: {stiffness: 1}, " + kAllNodes), HasSubstr("prescribes"));
   EXPECT_THAT(message(rail + "motor: {to: 1, factor: {type: ramp, end: 1}}, " + kAllNodes), HasSubstr("smooth_step"));
+  EXPECT_THAT(message("{type: ball, name: a, load: {amount: 1}, " + pin), HasSubstr("hinge, slot"));
+  EXPECT_THAT(message(rail + "load: {amount: 1 N m}, " + kAllNodes), HasSubstr("load.amount: expected a force"));
+  EXPECT_THAT(message(pivot + "load: {amount: 1 N}, " + kAllNodes), HasSubstr("load.amount"));
+  EXPECT_THAT(message(rail + "load: {amount: 1, factor: {type: harmonic}}, " + kAllNodes), HasSubstr("harmonic"));
 }
 
 TEST(Joints, VelocitiesThatTheyForbidAreTold) {

@@ -242,6 +242,34 @@ TEST(Friction, OfAJointStopsTheBox) {
   EXPECT_LE(std::abs(motion.drift), 1e-3 * 80);
 }
 
+// A torque T cos(t) turns the box by T/J (1 - cos t) about its middle, a force F cos(t) moves it by F/m (1 - cos t).
+class LoadsOfJoints : public testing::TestWithParam<std::pair<const char*, double>> {};
+INSTANTIATE_TEST_SUITE_P(Types, LoadsOfJoints,
+                         testing::Values(std::pair("hinge", kInertia[1]), std::pair("slider", 40.0)));
+
+TEST_P(LoadsOfJoints, MoveExactly) {
+  const auto& [type, inertia] = GetParam();
+  const double end = 2, amount = 20;
+  double last = 1;
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(box(
+        fmt::format("joints: [{{type: {}, name: rail, from: [0, 0, 0], to: [0, 1, 0], first: {{region: body}}, load: "
+                    "{{amount: {}, factor: {{type: expression, formula: 'cos(t)'}}}}}}]\ntime: {{end: {}}}",
+                    type, amount, end),
+        rtol));
+    const Motion motion = motion_of(s);
+    const double exact = amount / inertia * (1 - std::cos(end));
+    const double found = s.model().evaluate("coordinate.rail", motion.last)[0];
+    const double error = std::abs(std::remainder(found - exact, 2 * kPi));  // the angle is known without whole turns
+    EXPECT_LE(error, 1e3 * rtol * exact);
+    EXPECT_LE(error, 0.2 * last);
+    const double rate = amount / inertia * std::sin(end);
+    EXPECT_NEAR(s.model().evaluate("power.loads", motion.last)[0], amount * std::cos(end) * rate, 1e3 * rtol * amount);
+    EXPECT_LE(std::abs(motion.drift), 1e3 * rtol * 0.5 * inertia * std::pow(amount / inertia, 2));
+    last = error;
+  }
+}
+
 // A damped spring: x(t) = v/w exp(-d t) sin(w t) with d = 20/(2 m) and w^2 = k/m - d^2.
 TEST(Springs, OfAJointSwingExactly) {
   const BuiltTestScene s(sliding("spring: {stiffness: 1000, damping: 20}", 1.3, 1e-7));

@@ -12,8 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/fem/block_pattern.h"
-#include "lib/fem/joint_coordinate.h"
+#include "lib/fem/coordinate_nodes.h"
 #include "lib/fem/term.h"
 
 namespace orthodyn {
@@ -44,9 +43,6 @@ struct JointLaw {
   double resistance(double rate) const;
   double damping(double rate) const;
 };
-
-// Node pairs that the tangent couples.
-NodePairs joint_couplings(const JointCoordinate& coordinate);
 
 std::unique_ptr<Term> joint_forces_term(std::string joint, JointCoordinate coordinate, const JointLaw& law,
                                         const BlockPattern& pattern);

@@ -76,8 +76,8 @@ std::optional<Config> find_value(const Config& config, const std::vector<std::st
 // Calls `visit` for each value of a key at any depth.
 void visit_keys(const Config& config, const std::string& key, const std::function<void(const Config&)>& visit);
 
-// Calls `visit` for each time function of loads, terms and motions. Skips sections `factor` that a plugin uses for
-// something else.
+// Calls `visit` for each time function of loads, terms, motions and loads of joints. Skips sections `factor` that a
+// plugin uses for something else.
 void visit_time_functions(const CheckContext& context, const std::function<void(const Config&)>& visit);
 bool is_time_function(const Config& section);
 

@@ -55,11 +55,15 @@ bool is_time_function(const Config& section) {
 }
 
 void visit_time_functions(const CheckContext& context, const std::function<void(const Config&)>& visit) {
+  const auto visit_below = [&](const Config& section) {
+    visit_keys(section, "factor", [&](const Config& function) {
+      if (is_time_function(function)) visit(function);
+    });
+  };
   for (const char* section : {"loads", "terms", "motions"})
-    if (context.config.has(section))
-      visit_keys(context.config.at(section), "factor", [&](const Config& function) {
-        if (is_time_function(function)) visit(function);
-      });
+    if (context.config.has(section)) visit_below(context.config.at(section));
+  for (std::size_t k = 0; k < context.scene.joints.size(); ++k)
+    if (context.scene.joints[k].load) visit_below(context.config.at("joints").at(k).at("load"));
 }
 
 void visit_times(const CheckContext& context, const std::function<void(double)>& visit) {

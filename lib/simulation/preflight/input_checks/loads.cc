@@ -112,7 +112,9 @@ void add_idle_loads(const CheckContext& context, Warnings& out) {
 // Warns if the body is at rest and nothing moves it.
 void add_idle_scene(const CheckContext& context, Warnings& out) {
   const Scene& scene = context.scene;
-  const auto drives = [](const JointInput& joint) { return joint.motor || (joint.spring && joint.spring->rest != 0); };
+  const auto drives = [](const JointInput& joint) {
+    return joint.motor || joint.load || (joint.spring && joint.spring->rest != 0);
+  };
   if (std::any_of(scene.joints.begin(), scene.joints.end(), drives)) return;
   if (!context.is_timed_motion() || scene.gravity || !scene.loads.empty() || !scene.terms.empty() ||
       !scene.motions.empty() || scene.moisture || scene.temperature || scene.activation ||
