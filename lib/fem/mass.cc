@@ -9,16 +9,30 @@
 
 namespace orthodyn {
 
-Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
+namespace {
+
+// Calls visit(nodes, consistent mass matrix) for each cell and each frame.
+template <class Visit>
+void for_each_block(const ElementMesh& mesh, const MassSources& sources, Visit&& visit) {
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    visit(mesh.cells[e], mesh.type(e).consistent_mass(mesh.positions(e), sources.density[e]));
+  for (const FrameMass& mass : sources.frames) visit(std::span<const int>(mass.frame), Eigen::MatrixXd(mass.matrix));
+}
+
+}  // namespace
+
+Mass::Mass(MassKind kind, const ElementMesh& mesh, const MassSources& sources, const DofMap& dofs,
            const BlockPattern& pattern, const Subdomain* subdomain)
     : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())), frequency_excess_(1) {
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const ElementType& type = mesh.type(e);
-    const Vector masses = type.lumped_mass(mesh.positions(e), density[e]);
+    const Vector masses = type.lumped_mass(mesh.positions(e), sources.density[e]);
     if (kind == MassKind::consistent) frequency_excess_ = std::max(frequency_excess_, type.lumped_to_consistent());
     Eigen::Index a = 0;
     for (const int node : mesh.cells[e]) nodal_[node] += masses[a++];
   }
+  for (const FrameMass& mass : sources.frames)
+    for (const int node : mass.nodes) nodal_[node] += mass.total() / static_cast<double>(mass.nodes.size());
   if (subdomain) subdomain->add_to_owners(nodal_);
   if (kind == MassKind::lumped) move_to_leaders(dofs.ties());
   total_ = subdomain ? subdomain->ranks().sum(nodal_.sum()) : nodal_.sum();
@@ -27,7 +41,7 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
     const NodalVector all = Vec3::Ones() * nodal_.transpose();
     dofs.restrict_to(all, diagonal_);
   } else {
-    add_consistent(mesh, density, pattern);
+    add_consistent(mesh, sources, pattern);
   }
 }
 
@@ -48,12 +62,10 @@ void Mass::move_to_leaders(const Ties& ties) {
       frequency_excess_ = std::max(frequency_excess_, bounds[leader] / nodal_[leader]);
 }
 
-void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern) {
+void Mass::add_consistent(const ElementMesh& mesh, const MassSources& sources, const BlockPattern& pattern) {
   values_.assign(pattern_.row.size(), 0);
   row_sums_ = Vector::Zero(nodal_.size());
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const auto nodes = mesh.cells[e];
-    const Eigen::MatrixXd M = mesh.type(e).consistent_mass(mesh.positions(e), density[e]);
+  for_each_block(mesh, sources, [&](std::span<const int> nodes, const Eigen::MatrixXd& M) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       row_sums_[nodes[i]] += M.row(static_cast<Eigen::Index>(i)).sum();
       for (std::size_t j = 0; j < nodes.size(); ++j) {
@@ -63,7 +75,7 @@ void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& de
         pattern.add(a, b, pattern.offset(a, b), m * Mat3::Identity(), values_.data());
       }
     }
-  }
+  });
 }
 
 Mass::~Mass() = default;
@@ -125,7 +137,7 @@ void add_entry(int i, int j, double m, const DofMap& dofs, Entries& entries) {
   });
 }
 
-void add_element(std::span<const int> nodes, const Eigen::MatrixXd& M, const DofMap& dofs, Entries& entries) {
+void add_block(std::span<const int> nodes, const Eigen::MatrixXd& M, const DofMap& dofs, Entries& entries) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = 0; j < nodes.size(); ++j)
       add_entry(nodes[i], nodes[j], M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), dofs, entries);
@@ -133,16 +145,15 @@ void add_element(std::span<const int> nodes, const Eigen::MatrixXd& M, const Dof
 
 }  // namespace
 
-SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const std::vector<double>& density,
-                         const DofMap& dofs)
+SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const MassSources& sources, const DofMap& dofs)
     : matrix_(dofs.num_nodes(), dofs.num_nodes()) {
   Entries entries;
   if (mass.lumped()) {
     for (int i = 0; i < dofs.num_nodes(); ++i)
       if (is_held(dofs, i)) entries.emplace_back(i, i, mass.nodal()[i]);
   } else {
-    for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-      add_element(mesh.cells[e], mesh.type(e).consistent_mass(mesh.positions(e), density[e]), dofs, entries);
+    for_each_block(mesh, sources,
+                   [&](std::span<const int> nodes, const Eigen::MatrixXd& M) { add_block(nodes, M, dofs, entries); });
   }
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }

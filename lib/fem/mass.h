@@ -4,11 +4,14 @@
 //     M_ab = integral of rho N_a N_b dV (consistent),  m_a = sum over elements of rho V s_a (lumped)
 //
 // in kg, with density rho, shape functions N_a, element volume V and each node's share s_a of the element mass. The
-// three coordinates of a node have the same mass. Const functions may run concurrently on different vectors.
+// three coordinates of a node have the same mass. Rigid bodies of given inertia add the consistent mass of their frames
+// (rigid_body.h). Const functions may run concurrently on different vectors.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "lib/fem/block_pattern.h"
@@ -20,11 +23,27 @@ namespace orthodyn {
 
 enum class MassKind { lumped, consistent };
 
+// The mass of four nodes, with the same matrix for each coordinate.
+struct FrameMass {
+  std::array<int, 4> frame;
+  Eigen::Matrix4d matrix;  // kg
+  std::vector<int> nodes;  // of the body
+  double total() const { return matrix.sum(); }
+};
+
+// What has mass: the density of each cell, kg/m^3, and frames of rigid bodies.
+struct MassSources {
+  MassSources(std::vector<double> of_cells, std::vector<FrameMass> of_frames = {})
+      : density(std::move(of_cells)), frames(std::move(of_frames)) {}
+  std::vector<double> density;
+  std::vector<FrameMass> frames;
+};
+
 class Mass {
  public:
-  // `density` in kg/m^3, per cell. `pattern` must outlive the mass, `dofs` need not. `subdomain`: this rank's part for
-  // a lumped mass on several ranks, otherwise null.
-  Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
+  // `pattern` must outlive the mass, `dofs` need not. `subdomain`: this rank's part for a lumped mass on several ranks,
+  // otherwise null. Precondition: a lumped mass has no frames.
+  Mass(MassKind kind, const ElementMesh& mesh, const MassSources& sources, const DofMap& dofs,
        const BlockPattern& pattern, const Subdomain* subdomain = nullptr);
   ~Mass();
 
@@ -32,6 +51,7 @@ class Mass {
   // Mass of the body, kg, clamped nodes included.
   double total() const { return total_; }
   // Lumped masses of all nodes, kg, for either kind; 0 for copies of other ranks' nodes, and for tied nodes if lumped.
+  // All nodes of a body of given inertia have equal shares.
   const Vector& nodal() const { return nodal_; }
   // Lumped masses of tied nodes before they moved to the leaders, kg, and zero for other nodes; empty without ties or
   // with a consistent mass.
@@ -55,7 +75,7 @@ class Mass {
 
  private:
   void move_to_leaders(const Ties& ties);
-  void add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern);
+  void add_consistent(const ElementMesh& mesh, const MassSources& sources, const BlockPattern& pattern);
 
   MassKind kind_;
   const Pattern& pattern_;
@@ -76,8 +96,8 @@ class Mass {
 // the inertia of moved nodes and their coupling with free nodes.
 class SupportMass {
  public:
-  // `density` in kg/m^3, per cell. A node is held if one of its coordinates is not an unknown.
-  SupportMass(const Mass& mass, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs);
+  // A node is held if one of its coordinates is not an unknown.
+  SupportMass(const Mass& mass, const ElementMesh& mesh, const MassSources& sources, const DofMap& dofs);
 
   // Returns M x (kg times the unit of x). The result is complete at held nodes; at free nodes, it is complete if x is
   // zero at free nodes.
@@ -88,7 +108,8 @@ class SupportMass {
   SparseMatrix matrix_;  // symmetric, both triangles
 };
 
-// The rows of the consistent mass matrix of all nodes at tied nodes, before their inertia moves to the leaders.
+// The rows of the consistent mass matrix of all nodes at tied nodes, before their inertia moves to the leaders. Frames
+// of rigid bodies are not tied.
 class TiedMass {
  public:
   // `density` in kg/m^3, per cell.

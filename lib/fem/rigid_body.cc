@@ -40,6 +40,13 @@ class Barycentric {
     return {{frame_[0], 1 - w.sum()}, {frame_[1], w[0]}, {frame_[2], w[1]}, {frame_[3], w[2]}};
   }
 
+  // The derivatives of the four weights by the place, 1/m.
+  Eigen::Matrix<double, 4, 3> gradients() const {
+    Eigen::Matrix<double, 4, 3> out;
+    out << -inverse_.colwise().sum(), inverse_;
+    return out;
+  }
+
  private:
   std::array<int, 4> frame_;
   Vec3 origin_;
@@ -108,6 +115,20 @@ bool RigidBody::contains(const std::vector<int>& some) const {
 
 JointPoint RigidBody::point(const Mesh& mesh, const Vec3& point) const {
   return {Barycentric(mesh, frame).of(point), point};
+}
+
+FrameMass RigidBody::frame_mass(const Mesh& mesh) const {
+  const Barycentric barycentric(mesh, frame);
+  const Eigen::Matrix<double, 4, 3> gradients = barycentric.gradients();
+  FrameMass out{frame, Eigen::Matrix4d::Zero(), nodes()};
+  for (const RigidInertia& inertia : given) {
+    Eigen::Vector4d at_center;
+    const auto weights = barycentric.of(inertia.center);
+    for (std::size_t a = 0; a < 4; ++a) at_center[static_cast<Eigen::Index>(a)] = weights[a].second;
+    out.matrix +=
+        inertia.mass * at_center * at_center.transpose() + gradients * inertia.euler() * gradients.transpose();
+  }
+  return out;
 }
 
 Joint RigidBody::rigidity(const Mesh& mesh) const {

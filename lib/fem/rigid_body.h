@@ -5,6 +5,12 @@
 // So a body has twelve unknowns and six constraints, whatever the number of its nodes. Its mass matrix is constant, and
 // no angle is singular. Source: "natural coordinates", Garcia de Jalon & Bayo, Kinematic and Dynamic Simulation of
 // Multibody Systems, 1994.
+//
+// The mass is that of the mesh, or is given. Then the frame has the mass matrix, with the weights N_a of its nodes,
+//
+//     M_ab = integral of rho N_a N_b dV = m N_a(c) N_b(c) + grad N_a . E grad N_b
+//
+// with the mass m, its centre c and Euler's tensor E about the centre. M is positive definite if E is.
 #pragma once
 
 #include <array>
@@ -12,17 +18,29 @@
 #include <vector>
 
 #include "lib/fem/joints.h"
+#include "lib/fem/mass.h"
 #include "lib/fem/ties/ties.h"
 #include "lib/mesh/mesh.h"
 
 namespace orthodyn {
 
+struct RigidInertia {
+  double mass = 0;             // kg
+  Vec3 center = Vec3::Zero();  // m, at rest
+  Mat3 moments =
+      Mat3::Zero();  // about the centre, in space axes at rest: J = integral of rho (r.r I - r r^T) dV, kg m^2
+
+  // Euler's tensor, integral of rho r r^T dV = trace(J)/2 I - J, kg m^2.
+  Mat3 euler() const { return moments.trace() / 2 * Mat3::Identity() - moments; }
+};
+
 struct RigidBody {
   std::string name;
   std::string place;  // in the input, for messages
   std::array<int, 4> frame;
-  std::vector<TiedNode> followers;  // all other nodes
-  bool is_held = false;             // by a clamp or a motion of its frame
+  std::vector<TiedNode> followers;       // all other nodes
+  bool is_held = false;                  // by a clamp or a motion of its frame
+  std::vector<RigidInertia> given = {};  // of its regions of given inertia, whose cells have no mass
 
   // All nodes of the body: first the four nodes of the frame, then the followers.
   std::vector<int> nodes() const;
@@ -30,6 +48,8 @@ struct RigidBody {
   bool contains(const std::vector<int>& some) const;
   // The six distances of the frame.
   Joint rigidity(const Mesh& mesh) const;
+  // The mass matrix of the frame by the given inertia.
+  FrameMass frame_mass(const Mesh& mesh) const;
   // The mean of the frame's nodes that lies at `point` (m) at rest.
   JointPoint point(const Mesh& mesh, const Vec3& point) const;
 };

@@ -48,8 +48,8 @@ void restrict_to_rank(const Subdomain& subdomain, std::vector<Support>& supports
   }
 }
 
-void add_supports(Supports supports, const ElementMesh& elements, const std::vector<double>& density,
-                  const NodalVector& rest, FemModel::Parts& parts) {
+void add_supports(Supports supports, const ElementMesh& elements, const MassSources& sources, const NodalVector& rest,
+                  FemModel::Parts& parts) {
   if (parts.subdomain) {
     if (!supports.moved.empty()) parts.moved_everywhere = std::make_unique<MovedNodes>(supports.moved, rest);
     restrict_to_rank(*parts.subdomain, supports.moved);
@@ -58,7 +58,7 @@ void add_supports(Supports supports, const ElementMesh& elements, const std::vec
   if (!supports.moved.empty()) parts.moved = std::make_unique<MovedNodes>(std::move(supports.moved), *parts.rest);
   parts.supports = std::move(supports.named);
   if (parts.moved || !parts.supports.empty())
-    parts.support_mass = std::make_unique<SupportMass>(*parts.mass, elements, density, *parts.dofs);
+    parts.support_mass = std::make_unique<SupportMass>(*parts.mass, elements, sources, *parts.dofs);
 }
 
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
@@ -199,7 +199,7 @@ NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
 
 // Rigid regions do not deform.
 std::vector<const Region*> deformable_of(std::vector<const Region*> regions) {
-  std::erase_if(regions, [](const Region* region) { return region->rigid; });
+  std::erase_if(regions, [](const Region* region) { return region->rigid.is_rigid; });
   return regions;
 }
 
@@ -302,14 +302,15 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const ElementMesh elements(own, &parts.dofs->ties());
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
   if (subdomain) parts.pattern->set_share(*subdomain);
-  const auto density = subdomain ? cells_here(elastic.density, *subdomain) : elastic.density;
-  parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
+  const MassSources masses(subdomain ? cells_here(elastic.density, *subdomain) : elastic.density,
+                           frame_masses(parts.rigid_bodies, parts.mesh));
+  parts.mass = std::make_unique<Mass>(scene.mass, elements, masses, *parts.dofs, *parts.pattern, subdomain);
   require_mass(parts.mass->total());
   if (!parts.ties.empty() && !parts.mass->lumped())
-    parts.tied_mass = std::make_unique<TiedMass>(elements, density, parts.dofs->ties());
+    parts.tied_mass = std::make_unique<TiedMass>(elements, masses.density, parts.dofs->ties());
   const NodalVector rest = positions(parts.mesh);
   parts.rest = std::make_unique<NodalVector>(positions(own));
-  add_supports(std::move(supports), elements, density, rest, parts);
+  add_supports(std::move(supports), elements, masses, rest, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, deformable);
   if (scene.is_static() && scene.analysis != Analysis::harmonic) parts.loads_at = scene.time.end;

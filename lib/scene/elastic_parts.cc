@@ -277,6 +277,8 @@ ElasticParts elastic_parts(const Scene& scene, const std::vector<const Region*>&
       maker.add(r, region, field, type, kind_of(shape, shapes), std::move(own), notes);
     }
   }
+  for (std::size_t cell = 0; cell < out.density.size(); ++cell)
+    if (regions[static_cast<std::size_t>(mesh.region_of[cell])]->rigid.inertia) out.density[cell] = 0;
   return out;
 }
 
@@ -286,7 +288,7 @@ std::vector<std::unique_ptr<AddedTerm>> add_elasticity(const Scene& scene, Elast
   const ElementMesh elements(parts.mesh);
   for (ElasticPart& part : elastic.parts) {
     const Region& entry = *part.entry;
-    if (entry.rigid) continue;
+    if (entry.rigid.is_rigid) continue;
     const auto all = static_cast<int>(part.cells.size());
     CellsOfRank cells = cells_of_rank(own, parts.subdomain.get(), part.cells);
     const ElementAxes axes = cells.here.empty() ? ElementAxes(Mat3::Identity())

@@ -32,7 +32,7 @@ struct ElasticPart {
 struct ElasticParts {
   std::vector<ElasticPart> parts;
   std::vector<std::unique_ptr<const ElementType>> ply_types;  // used by `parts`
-  std::vector<double> density;                                // of each cell, kg/m^3
+  std::vector<double> density;                                // of each cell, kg/m^3; 0 where the inertia is given
 };
 
 // The parts of all regions that have cells. `regions`: result of assign_regions(). Renumbers the nodes of cells in

@@ -53,8 +53,11 @@ const Spec<Region>& Region::spec() {
                "corotational: linear in the strain of the turned material. neo_hookean: for isotropic "
                "materials at large strain, such as rubber; its energy keeps elements from inverting.")
           .key("rigid", &Region::rigid,
-               "The region moves as a rigid body, which has no stresses; its material gives the density. Rigid regions "
-               "that share nodes are one body.")
+               "The region moves as a rigid body, which has no stresses. true: its material gives the density. A "
+               "section "
+               "gives mass, centre and moments of inertia in place of the mesh and the density. Rigid regions that "
+               "share "
+               "nodes are one body.")
           .key("integration", &Region::integration,
                "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
                "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "
@@ -77,7 +80,9 @@ const Spec<Region>& Region::spec() {
                 {"formulation", region.formulation != Formulation::automatic},
                 {"stiffness_factors", region.stiffness_factors.has_value()}};
             for (const auto& [key, is_given] : elastic)
-              if (region.rigid && is_given) config.at(key).fail("has no effect in a rigid region; remove it");
+              if (region.rigid.is_rigid && is_given) config.at(key).fail("has no effect in a rigid region; remove it");
+            if (region.rigid.inertia && !region.layup.empty())
+              config.at("layup").fail("has no effect in a rigid region of given inertia; give a material");
             if (region.stiffness_factors && !region.layup.empty())
               config.at("stiffness_factors").fail("is not available for a region with a layup");
             if (region.law == ElasticLaw::neo_hookean && region.kinematics)
@@ -127,8 +132,8 @@ void check_kinematics(const Config& config, const Scene& scene) {
 
 // Lumped masses change the inertia of a rigid body.
 void choose_mass(const Config& config, Scene& scene) {
-  const auto rigid =
-      std::find_if(scene.regions.begin(), scene.regions.end(), [](const auto& entry) { return entry.second.rigid; });
+  const auto rigid = std::find_if(scene.regions.begin(), scene.regions.end(),
+                                  [](const auto& entry) { return entry.second.rigid.is_rigid; });
   const bool has_rigid = rigid != scene.regions.end();
   if (has_rigid && scene.given_mass == MassKind::lumped)
     config.at("mass").fail(

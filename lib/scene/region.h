@@ -12,6 +12,7 @@
 #include "lib/material/material.h"
 #include "lib/mesh/mesh.h"
 #include "lib/scene/layup.h"
+#include "lib/scene/rigid_input.h"
 #include "lib/scene/stiffness_factors.h"
 
 namespace orthodyn {
@@ -36,7 +37,7 @@ struct Region {
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
   std::optional<StiffnessFactors> stiffness_factors;
   ElasticLaw law = ElasticLaw::corotational;
-  bool rigid = false;  // lib/fem/rigid_body.h
+  RigidInput rigid;
   Integration integration = Integration::automatic;
   Formulation formulation = Formulation::automatic;
   SourceLocation origin;

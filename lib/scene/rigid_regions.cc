@@ -17,22 +17,35 @@ namespace {
 struct RegionNodes {
   std::string name, place;
   std::set<int> nodes;
+  std::vector<RigidInertia> given;
 };
 
 bool share_nodes(const std::set<int>& a, const std::set<int>& b) {
   return std::any_of(a.begin(), a.end(), [&](int node) { return b.contains(node); });
 }
 
+// An entry of given inertia describes one region of the mesh.
+void require_one_region(const Region& entry, const std::vector<const Region*>& regions) {
+  if (const auto count = std::count(regions.begin(), regions.end(), &entry); count > 1)
+    entry.origin.fail(fmt::format(
+        "rigid: the entry stands for {} regions of the mesh, and each would have this mass; give each region an entry",
+        count));
+}
+
 std::vector<RegionNodes> rigid_regions(const std::vector<const Region*>& regions, const Mesh& mesh) {
   std::vector<RegionNodes> all(regions.size());
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     const auto r = static_cast<std::size_t>(mesh.region_of[cell]);
-    if (regions[r]->rigid) all[r].nodes.insert(mesh.cells[cell].begin(), mesh.cells[cell].end());
+    if (regions[r]->rigid.is_rigid) all[r].nodes.insert(mesh.cells[cell].begin(), mesh.cells[cell].end());
   }
   std::vector<RegionNodes> out;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (all[r].nodes.empty()) continue;
-    RegionNodes body{mesh.region_names[r], regions[r]->origin.where, std::move(all[r].nodes)};
+    RegionNodes body{mesh.region_names[r], regions[r]->origin.where, std::move(all[r].nodes), {}};
+    if (const auto& inertia = regions[r]->rigid.inertia) {
+      require_one_region(*regions[r], regions);
+      body.given.push_back(*inertia);
+    }
     for (auto other = out.begin(); other != out.end();) {
       if (!share_nodes(other->nodes, body.nodes)) {
         ++other;
@@ -40,6 +53,7 @@ std::vector<RegionNodes> rigid_regions(const std::vector<const Region*>& regions
       }
       body.name = other->name + "+" + body.name;
       body.nodes.merge(other->nodes);
+      body.given.insert(body.given.end(), other->given.begin(), other->given.end());
       other = out.erase(other);
     }
     out.push_back(std::move(body));
@@ -88,9 +102,18 @@ void add_to_support(std::vector<Support>& supports, const RigidBody& body) {
 
 std::vector<RigidBody> rigid_bodies(const std::vector<const Region*>& regions, const Mesh& mesh) {
   std::vector<RigidBody> out;
-  for (RegionNodes& region : rigid_regions(regions, mesh))
+  for (RegionNodes& region : rigid_regions(regions, mesh)) {
     out.push_back(
         rigid_body(mesh, {region.nodes.begin(), region.nodes.end()}, std::move(region.name), std::move(region.place)));
+    out.back().given = std::move(region.given);
+  }
+  return out;
+}
+
+std::vector<FrameMass> frame_masses(const std::vector<RigidBody>& bodies, const Mesh& mesh) {
+  std::vector<FrameMass> out;
+  for (const RigidBody& body : bodies)
+    if (!body.given.empty()) out.push_back(body.frame_mass(mesh));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The rigid bodies of a scene: its regions with `rigid: true` (lib/fem/rigid_body.h).
+// The rigid bodies of a scene: its regions with the key `rigid` (lib/fem/rigid_body.h).
 #pragma once
 
 #include <vector>
@@ -12,6 +12,9 @@ struct Supports;
 
 // Rigid regions that share nodes are one body. `regions`: result of assign_regions().
 std::vector<RigidBody> rigid_bodies(const std::vector<const Region*>& regions, const Mesh& mesh);
+
+// The mass of the bodies of given inertia.
+std::vector<FrameMass> frame_masses(const std::vector<RigidBody>& bodies, const Mesh& mesh);
 
 // A clamp or motion of three nodes of a rigid body that are not on a line holds the whole body: gives it the frame of
 // the body. Throws ConfigError if a body is held in another way.

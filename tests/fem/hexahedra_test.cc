@@ -119,7 +119,7 @@ class QuadraticBricks : public testing::Test {
 
 TEST_F(QuadraticBricks, HaveTheirMass) {
   for (const auto kind : {MassKind::lumped, MassKind::consistent}) {
-    const Mass mass(kind, mesh, {kDensity, kDensity}, dofs, pattern);
+    const Mass mass(kind, mesh, {{kDensity, kDensity}}, dofs, pattern);
     EXPECT_NEAR(mass.total(), kDensity * kSize.prod(), 64 * kEps * kDensity);
     std::vector<double> values(pattern.pattern().row.size(), 0);
     mass.add_to(1, values.data());
@@ -130,7 +130,7 @@ TEST_F(QuadraticBricks, HaveTheirMass) {
 }
 
 TEST_F(QuadraticBricks, HaveTheConsistentMassOfLinearFields) {
-  const Mass mass(MassKind::consistent, mesh, {kDensity, kDensity}, dofs, pattern);
+  const Mass mass(MassKind::consistent, mesh, {{kDensity, kDensity}}, dofs, pattern);
   const Vector z = linear_field(bricks.nodes);
   Vector Mz(z.size());
   mass.multiply(z, Mz);

@@ -80,6 +80,132 @@ TEST(RigidBodies, ThinBodiesHaveIndependentConstraints) {
   }
 }
 
+// A rigid box of 4 kg, with two regions or with one.
+const std::string kTip = ", parts: {tip: {min: [0.5, 0, 0], max: [1, 1, 1]}}";
+std::string rigid_box(const std::string& regions, const std::string& more = "", const std::string& parts = kTip) {
+  return fmt::format(R"(
+mesh: {{type: box, size: [1, 0.4, 0.2], cells: [4, 2, 2], order: 1{}}}
+materials: {{m: {{type: isotropic, density: 50, young: 1e4, nu: 0.3}}}}
+regions: {}
+time: {{end: 1}}
+{}
+)",
+                     parts, regions, more);
+}
+
+// Half of the box, by its closed form.
+std::string half(double x) {
+  const double m = 2, xx = m / 12 * (0.16 + 0.04), yy = m / 12 * (0.25 + 0.04), zz = m / 12 * (0.25 + 0.16);
+  return fmt::format(
+      "{{material: m, rigid: {{mass: 2 kg, center: [{}, 0.2, 0.1], inertia: [{:.17g}, {:.17g}, {:.17g}]}}}}", x, xx, yy,
+      zz);
+}
+
+// Given and computed inertia agree, and those of the regions of one body add up.
+TEST(GivenInertia, MayBeThatOfTheMesh) {
+  const std::string by_mesh = "{material: m, rigid: true}";
+  const BuiltTestScene mesh(rigid_box("{all: " + by_mesh + "}"));
+  ASSERT_EQ(mesh.size(), 12);
+  for (const auto& [body, tip] :
+       {std::pair(half(0.25), half(0.75)), std::pair(by_mesh, half(0.75)), std::pair(half(0.25), by_mesh)}) {
+    const BuiltTestScene s(rigid_box(fmt::format("{{body: {}, tip: {}}}", body, tip)));
+    EXPECT_LE((s.mass() - mesh.mass()).norm(), 1e-13 * mesh.mass().norm());
+    EXPECT_NEAR(s.model().parts().mass->total(), 4, 1e-14);
+  }
+}
+
+struct Given {
+  double mass = 3;
+  Vec3 center{2, -1, 0.5};
+  Mat3 moments;
+  std::string region;
+
+  Given() {
+    const Mat3 axes = Random(12).rotation();
+    moments = axes * Vec3(0.5, 0.9, 1.3).asDiagonal() * axes.transpose();
+    region = fmt::format(
+        "{{material: m, rigid: {{mass: 3 kg, center: [2, -1, 0.5], inertia: [{:.17g}, {:.17g}, {:.17g}, {:.17g}, "
+        "{:.17g}, {:.17g}]}}}}",
+        moments(0, 0), moments(1, 1), moments(2, 2), moments(0, 1), moments(1, 2), moments(2, 0));
+  }
+};
+
+// Energies and momenta of any rigid motion.
+TEST(GivenInertia, IsExact) {
+  const Given given;
+  const Vec3 velocity(1, 2, -3), spin(3, -5, 4), shift(0.3, 0.2, -0.7), g(1, 2, -10);
+  const BuiltTestScene s(rigid_box("{all: " + given.region + "}", "gravity: [1, 2, -10]", ""));
+  const Mat3 R = Random(13).rotation();
+  State state = s.built.initial;
+  state.q = s.dofs([&](const Vec3& X) -> Vec3 { return R * (X - given.center) + given.center + shift - X; });
+  state.v = s.dofs([&](const Vec3& X) -> Vec3 { return velocity + spin.cross(R * (X - given.center)); });
+  const auto vector = [&](const char* name) {
+    const auto x = s.model().evaluate(name, state);
+    return Vec3(x[0], x[1], x[2]);
+  };
+  const Vec3 L = R * given.moments * R.transpose() * spin;  // about the centre
+  const double kinetic = 0.5 * given.mass * velocity.squaredNorm() + 0.5 * spin.dot(L);
+  EXPECT_NEAR(s.model().evaluate("energy.kinetic", state)[0], kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(s.model().evaluate("energy.gravitational", state)[0], -given.mass * g.dot(shift), 1e-12 * 3 * 10);
+  EXPECT_LE((vector("momentum.linear") - given.mass * velocity).norm(), 1e-12 * 3 * 4);
+  const Vec3 angular = L + given.mass * (given.center + shift).cross(velocity);
+  EXPECT_LE((vector("momentum.angular") - angular).norm(), 1e-12 * angular.norm());
+  EXPECT_NEAR(s.model().parts().mass->total(), given.mass, 1e-14);
+}
+
+// Gravity and the inertia of a motion act at the centre.
+TEST(GivenInertia, IsThatOfReactions) {
+  const Given given;
+  const auto expect_reaction = [&](const std::string& support, const std::string& name) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    box: {{mesh: {{type: box, size: [1, 0.4, 0.2], cells: [1, 1, 1], order: 1}}}}
+    free: {{mesh: {{type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}}, translation: [0, 0, 5]}}
+materials: {{m: {{type: isotropic, density: 50, young: 1e4, nu: 0.3}}}}
+regions: {{box: {}, free: {{material: m}}}}
+{}
+output: {{reactions: true}}
+time: {{end: 1}}
+)",
+                                       given.region, support));
+    const auto force = s.model().evaluate("reaction." + name, s.built.initial);
+    const auto torque = s.model().evaluate("torque." + name, s.built.initial);
+    const Vec3 weight(0, 0, -10 * given.mass), arm = given.center - Vec3(0, 0.2, 0.1);  // from the middle of box.x0
+    EXPECT_LE((Vec3(force[0], force[1], force[2]) + weight).norm(), 1e-12 * weight.norm());
+    EXPECT_LE((Vec3(torque[0], torque[1], torque[2]) + arm.cross(weight)).norm(), 1e-12 * arm.cross(weight).norm());
+  };
+  expect_reaction("clamps: [{surface: box.x0}]\ngravity: [0, 0, -10]", "clamp_1");
+  expect_reaction("motions: [{surface: box.x0, translation: [0, 0, 5], factor: {type: expression, formula: 't^2'}}]",
+                  "motion_1");
+}
+
+TEST(GivenInertia, MustBeThatOfABody) {
+  const auto message = [](const std::string& rigid, const std::string& more = "") {
+    try {
+      const BuiltTestScene s(rigid_box("{all: {material: m, rigid: " + rigid + "}}", more));
+      return std::string("accepted");
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+  };
+  const auto with = [](const std::string& inertia) { return "{mass: 1, center: [0, 0, 0], inertia: " + inertia + "}"; };
+  using testing::HasSubstr;
+  EXPECT_THAT(message(with("[1, 1, 1]")), HasSubstr("stands for 2 regions"));
+  EXPECT_THAT(message(with("[1, 2, 3.1]")), HasSubstr("1, 2 and 3.1 kg m^2, which no body has"));
+  EXPECT_THAT(message(with("[1, 2, 3]")), HasSubstr("without thickness"));
+  EXPECT_THAT(message(with("[1, 2, 2.999]")), HasSubstr("stands for"));
+  EXPECT_THAT(message(with("[1, 1, 1, 2, 0, 0]")), HasSubstr("which no body has"));
+  EXPECT_THAT(message(with("[-1, 1, 1]")), HasSubstr("must be positive"));
+  EXPECT_THAT(message(with("[0, 0, 0]")), HasSubstr("must be positive"));
+  EXPECT_THAT(message(with("[1, 1]")), HasSubstr("3 moments"));
+  EXPECT_THAT(message("{mass: -1, center: [0, 0, 0], inertia: [1, 1, 1]}"), HasSubstr("rigid.mass: must be > 0"));
+  EXPECT_THAT(message("{mass: 1, inertia: [1, 1, 1]}"), HasSubstr("'center' is missing"));
+  EXPECT_THAT(message("{mass: 1, centre: [0, 0, 0], inertia: [1, 1, 1]}"), HasSubstr("center"));
+  EXPECT_THAT(message(with("[1, 1, 1]"), "mass: lumped"), HasSubstr("lumped"));
+}
+
 TEST(RigidBodies, AreHeldByThreeNodes) {
   const BuiltTestScene s(box_and_block("clamps: [{surface: box.x0}]\noutput: {reactions: true}\ngravity: [0, 0, -10]"));
   EXPECT_EQ(s.model().constraints(), nullptr);

@@ -129,6 +129,35 @@ integrator: {{type: ida_bdf, rtol: {}}}
   }
 }
 
+// The same top with its inertia given, on a small cube beside it.
+TEST(RigidBodies, PrecessWithAGivenInertia) {
+  const double end = 1.5, mass = 40;
+  const Vec3 spin(20, 0, 0), centre(0.5, 0, 0);
+  const Vec3 about_centre = mass / 12 * Vec3(2 * 0.3 * 0.3, 1 + 0.09, 1 + 0.09);
+  const Turning exact =
+      exact_turning(about_centre + mass * 0.25 * Vec3(0, 1, 1), spin, end,
+                    [&](const Mat3& R) -> Vec3 { return (R * centre).cross(Vec3(0, 0, -10 * mass)); });
+  double last = 1;
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1, origin: [0.1, 0.1, 0.1]}}
+materials: {{m: {{type: isotropic, density: 1, young: 1e4, nu: 0.3}}}}
+regions: {{all: {{material: m, rigid: {{mass: {}, center: [0.5, 0, 0], inertia: [{}, {}, {}]}}}}}}
+joints: [{{type: ball, name: foot, at: [0, 0, 0], first: {{region: body}}}}]
+gravity: [0, 0, -10]
+initial: {{spin: [20, 0, 0], center: [0, 0, 0]}}
+time: {{end: {}}}
+integrator: {{type: ida_bdf, rtol: {}}}
+)",
+                                       mass, about_centre[0], about_centre[1], about_centre[2], end, rtol));
+    const Motion motion = motion_of(s);
+    const double error = error_of(s, motion.last.q, exact.R);
+    EXPECT_LE(error, 1e4 * rtol);
+    EXPECT_LE(error, 0.1 * last);
+    last = error;
+  }
+}
+
 // A motor turns the box about a hinge at its end by a smooth step of 200 degrees: torque = J th'' + m g l cos th.
 // The motor prescribes the whole motion: nothing is left to integrate, and each error is an error of the constraints.
 class Motors : public testing::TestWithParam<const char*> {};
