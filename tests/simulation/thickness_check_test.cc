@@ -15,7 +15,7 @@ materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 clamps: [{surface: x0}]
 time: {end: 1}
 )");
-  return thin_regions(build(read_scene(config)).model->parts().mesh);
+  return thin_regions(build(read_scene(config)).model->parts());
 }
 
 TEST(ThinRegions, AreOneToThreeLinearElementsThick) {
@@ -27,6 +27,16 @@ TEST(ThinRegions, AreOneToThreeLinearElementsThick) {
 }
 
 TEST(ThinRegions, AreNoneOfQuadraticElements) { EXPECT_TRUE(of_box("[8, 1, 1]", 2).empty()); }
+
+TEST(ThinRegions, AreNotRigid) {
+  const Config config = Config::from_text(R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [8, 1, 1], order: 1}
+materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+regions: {body: {material: soft, rigid: true}}
+time: {end: 1}
+)");
+  EXPECT_TRUE(thin_regions(build(read_scene(config)).model->parts()).empty());
+}
 
 }  // namespace
 }  // namespace orthodyn::thickness_check_test

@@ -194,7 +194,7 @@ int check(const CheckArguments& arguments) {
   const Box box = bounding_box(parts.mesh);
   fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),
              parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
-  for (const auto& sentence : thin_regions(parts.mesh)) fmt::print(stderr, "warning: {}\n", sentence);
+  for (const auto& sentence : thin_regions(parts)) fmt::print(stderr, "warning: {}\n", sentence);
   fmt::print("materials\n");
   print_materials(setup.scene, setup.built.model->traits().linear);
   print_axes(setup);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace orthodyn {
 
@@ -41,13 +42,16 @@ int depth(const Mesh& mesh, const std::vector<std::size_t>& cells) {
 
 }  // namespace
 
-std::vector<std::string> thin_regions(const Mesh& mesh) {
+std::vector<std::string> thin_regions(const FemModel::Parts& parts) {
+  const Mesh& mesh = parts.mesh;
+  std::set<std::string> deformable;
+  for (const auto& term : parts.elastic) deformable.insert(term->definition().mesh_region);
   std::vector<std::string> out;
   if (mesh.order() > 1) return out;
   std::vector<std::vector<std::size_t>> cells(mesh.region_names.size());
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) cells[static_cast<std::size_t>(mesh.region_of[e])].push_back(e);
   for (std::size_t r = 0; r < cells.size(); ++r) {
-    if (cells[r].empty()) continue;
+    if (cells[r].empty() || !deformable.contains(mesh.region_names[r])) continue;
     const int deepest = depth(mesh, cells[r]);
     if (deepest > 1) continue;
     out.push_back(
