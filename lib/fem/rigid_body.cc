@@ -57,6 +57,7 @@ class Barycentric {
 // point, line or plane through those before. Returns fewer than four if the nodes lie in a plane or on a line. Of nodes
 // that are almost equally far from the plane, the fourth is the one nearest to the third. So three nodes of a thin
 // rod's frame lie at one end, and two of a plate's frame above each other: the distances do not depend on each other.
+// Of equally far nodes, such as the corners of a box, the first one is taken, whatever the round-off.
 std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
   constexpr double kAlmost = 0.9;
   Vec3 mean = Vec3::Zero();
@@ -68,7 +69,7 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
     double farthest = -1;
     int best = -1;
     for (const int node : nodes)
-      if (const double distance = distance_from(through, mesh.node(node)); distance > farthest) {
+      if (const double distance = distance_from(through, mesh.node(node)); distance > (1 + kRoundOff) * farthest) {
         farthest = distance;
         best = node;
       }
@@ -76,7 +77,7 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
     if (farthest <= kRoundOff * size) return frame;
     const auto from_third = [&](int node) { return (mesh.node(node) - through.back()).norm(); };
     for (const int node : nodes)
-      if (k == 3 && from_third(node) < from_third(best) &&
+      if (k == 3 && from_third(node) < (1 - kRoundOff) * from_third(best) &&
           distance_from(through, mesh.node(node)) >= kAlmost * farthest)
         best = node;
     frame.push_back(best);
