@@ -153,6 +153,22 @@ void check_overlap(const CheckContext& context, Warnings& out) {
   }
 }
 
+// Contact on faces of 20-node hexahedra: nodes share the area of a face, which is far from the forces of a uniform
+// pressure, negative at corners.
+void check_faces(const CheckContext& context, Warnings& out) {
+  const FemModel::Parts& parts = context.built.model->parts();
+  const auto has_20_nodes = [&] {
+    for (std::size_t cell = 0; cell < parts.mesh.cells.size(); ++cell)
+      if (parts.mesh.cells.shape(cell) == CellShape::hex20) return true;
+    return false;
+  };
+  const auto touches = [](const auto& term) { return term->contact_stiffness() > 0; };
+  if (!std::any_of(parts.loads.begin(), parts.loads.end(), touches) || !has_20_nodes()) return;
+  warn(out, "terms",
+       "contact presses unevenly on faces of 20-node hexahedra: its stiffness and the stresses near it may be wrong by "
+       "any factor. Use elements: hexahedra_27, or order: 1");
+}
+
 }  // namespace
 
 bool is_free(const CheckContext& context) {
@@ -169,6 +185,7 @@ void check_freedom(const CheckContext& context, Warnings& out) {
   check_drift(context, out);
   check_ground(context, out);
   check_overlap(context, out);
+  check_faces(context, out);
 }
 
 }  // namespace orthodyn::input_checks
