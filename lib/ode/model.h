@@ -161,7 +161,7 @@ class Model : public OutputSource {
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
 
   // The longest step (s) from a state in which no body can pass through another one unseen, if no velocity grows to
-  // more than three times the largest one; infinite without contact of bodies.
+  // more than four times the largest one; infinite without contact of bodies.
   virtual double longest_step(const State&) const { return std::numeric_limits<double>::infinity(); }
 
  private:
