@@ -274,10 +274,9 @@ class Cvode final : public SundialsIntegrator {
     const Extra m = me.extra();
     return guarded(me.callback_context_, [&] {
       N_VConst(0, change);
-      const ConstraintProjection projection(*me.model_.constraints(), t, positions(y, m),
-                                            me.newton_system_->constraint_directions());
-      projection.project(velocities(y, m), ScaledNorm(me.options_.rtol, me.scales_), tolerance, positions(change, m),
-                         velocities(change, m));
+      const Projection project{*me.model_.constraints(), me.newton_system_->constraint_directions(),
+                               ScaledNorm(me.options_.rtol, me.scales_), tolerance};
+      project(t, positions(y, m), velocities(y, m), positions(change, m), velocities(change, m));
     });
   }
 

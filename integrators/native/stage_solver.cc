@@ -32,12 +32,10 @@ StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const
       r_(model.num_dofs()),
       dx_(model.num_dofs()),
       guess_(model.num_dofs()),
-      work_(model.num_dofs()) {
+      work_(model.num_dofs()),
+      constraints_(model.constraints()) {
   matrix_.set_newton_tolerance(0);
-  if (const Constraints* constraints = model.constraints()) {
-    complement_.emplace(*constraints);
-    lambda_ = g_ = Vector::Zero(constraints->size());
-  }
+  if (constraints_) lambda_ = g_ = Vector::Zero(constraints_->size());
 }
 
 void StageSolver::begin_step() {
@@ -96,17 +94,20 @@ bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool rene
   }
   remaining_.restart();
   factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
-  if (factored_ && complement_)
-    factored_ = complement_->factor([this](const Vector& b, Vector& solution) { matrix_.solve(b, solution); });
+  if (factored_ && constraints_) {
+    constraints_at_.emplace(*constraints_, t_, q_,
+                            [this](const Vector& b, Vector& solution) { matrix_.solve(b, solution); });
+    factored_ = constraints_at_->is_definite();
+  }
   return factored_;
 }
 
 void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
   stale_ = false;
   if (linearized_ && linear_) return;
-  const Vector q = stage.q + stage.w_k * x;
-  matrix_.linearize(stage.t, q, stage.v + stage.w_d * x);
-  if (complement_) complement_->linearize(stage.t, q);
+  t_ = stage.t;
+  q_ = stage.q + stage.w_k * x;
+  matrix_.linearize(t_, q_, stage.v + stage.w_d * x);
   linearized_ = true;
   factored_ = false;
 }
@@ -146,27 +147,27 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
   require_finite(model_, r_);
   model_.multiply_mass(x, work_);
   r_ -= work_;
-  if (complement_) r_ -= complement_->constraints().jacobian(stage.t, q) * lambda_;
+  if (constraints_) r_ -= constraints_->jacobian(stage.t, q) * lambda_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare * tolerance_, stage.w_k, stage.w_d));
   matrix_.solve(r_, dx_);
   // Scales the correction for outdated weights, as CVODE does for an outdated gamma.
   const double scale = 2 / (1 + stage.w_k / matrix_.weights().stiffness);
   dx_ *= scale;
-  if (complement_) correct_multipliers(stage, q, scale);
+  if (constraints_) correct_multipliers(stage, q, scale);
   ++statistics_.newton_iterations;
 }
 
 void StageSolver::correct_multipliers(const Stage& stage, const ConstVectorRef& q, double scale) {
-  complement_->constraints().values(stage.t, q, g_);
-  const Vector change = complement_->multipliers(dx_, -g_ / stage.w_k);
-  dx_ -= complement_->change(change);
+  constraints_->values(stage.t, q, g_);
+  const Vector change = constraints_at_->solve(dx_, -g_ / stage.w_k);
+  dx_ -= constraints_at_->change(change);
   lambda_ += change / scale;
 }
 
 Vector StageSolver::violation(double t, const ConstVectorRef& q, const ConstVectorRef& v) {
   if (!factored_) return Vector::Zero(q.size());
-  complement_->constraints().rates(t, q, v, g_);
-  return complement_->least_change(g_);
+  constraints_->rates(t, q, v, g_);
+  return constraints_at_->least_change(g_);
 }
 
 void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
@@ -176,10 +177,10 @@ void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
   r_ -= w.stiffness / w.damping * work_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare, w.damping, 1));
   matrix_.solve(r_, dx_);
-  if (complement_) complement_->remove_violation(dx_);
+  if (constraints_) constraints_at_->remove_violation(dx_);
   e_v = dx_;
   e_q += w.damping * dx_;
-  if (complement_) complement_->remove_violation(e_q);
+  if (constraints_) constraints_at_->remove_violation(e_q);
 }
 
 }  // namespace orthodyn

@@ -8,19 +8,19 @@
 // step fails, it is tried with a new tangent in each iteration. The iteration follows Hairer & Wanner (1996), IV.8.
 //
 // With constraints (lib/ode/constraints.h), the stage is M x = f - G^T lambda, g(t, q) = 0 with unknowns x and lambda.
-// Each correction solves A dx + G^T dlambda = f - M x - G^T lambda, G dx = -g / w_k (constraint_complement.h). As g is
+// Each correction solves A dx + G^T dlambda = f - M x - G^T lambda, G dx = -g / w_k (constraints_at.h). As g is
 // divided by w_k, the system is well conditioned for short steps too (Bottasso, Bauchau & Cardona 2007). Derivatives of
 // G are left out; G of the matrix is renewed with K.
 #pragma once
 
 #include <optional>
 
-#include "integrators/constraint_complement.h"
 #include "integrators/native/native_options.h"
 #include "integrators/newton_matrix.h"
 #include "integrators/remaining_error.h"
 #include "integrators/renewal_policy.h"
 #include "integrators/scaled_norm.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
 
@@ -63,7 +63,7 @@ class StageSolver {
   std::size_t factor_bytes() const { return matrix_.factor_bytes(); }
   std::size_t bytes() const {
     return matrix_.bytes() + 4 * static_cast<std::size_t>(r_.size()) * sizeof(double) +
-           (complement_ ? complement_->bytes() : 0);
+           (constraints_at_ ? constraints_at_->bytes() : 0);
   }
   std::string description() const { return matrix_.description(); }
 
@@ -93,7 +93,10 @@ class StageSolver {
   RenewalPolicy renewal_;
   RemainingError remaining_;
   Vector r_, dx_, guess_, work_;
-  std::optional<ConstraintComplement> complement_;  // only for models with constraints
+  const Constraints* constraints_;  // null if the model has none
+  double t_ = 0;                    // s, with q_: at which K, D and G were computed
+  Vector q_;
+  std::optional<ConstraintsAt> constraints_at_;  // there, with A; only for models with constraints
   Vector lambda_, lambda_guess_, g_;
 };
 

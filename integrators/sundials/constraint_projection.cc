@@ -1,5 +1,7 @@
 #include "integrators/sundials/constraint_projection.h"
 
+#include <Eigen/LU>
+
 #include "lib/core/errors.h"
 
 namespace orthodyn::sundials {
@@ -18,28 +20,22 @@ void iterate(Change change, double tolerance) {
 
 }  // namespace
 
-ConstraintProjection::ConstraintProjection(const Constraints& constraints, double t, const ConstVectorRef& q,
-                                           const Eigen::MatrixXd& directions)
-    : constraints_(constraints),
-      t_(t),
-      q_(q),
-      directions_(directions),
-      G_(constraints.jacobian(t, q)),
-      S_(G_.transpose() * directions) {}
-
-void ConstraintProjection::project(const ConstVectorRef& v, const ScaledNorm& norm, double tolerance, VectorRef dq,
-                                   VectorRef dv) const {
-  Vector g(constraints_.size());
+void Projection::operator()(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef dq,
+                            VectorRef dv) const {
+  const Eigen::SparseMatrix<double> G = constraints.jacobian(t, q);  // G^T
+  const Eigen::PartialPivLU<Eigen::MatrixXd> S(G.transpose() * directions);
+  const auto change = [&](const Vector& c) -> Vector { return directions * S.solve(c); };  // the x with G x = c
+  Vector g(constraints.size());
   dq.setZero();
   dv.setZero();
   const auto change_positions = [&] {
-    constraints_.values(t_, q_ + dq, g);
+    constraints.values(t, q + dq, g);
     const Vector step = change(g);
     dq -= step;
     return norm(step, 1, 0);
   };
   const auto change_velocities = [&] {
-    constraints_.rates(t_, q_ + dq, v + dv, g);
+    constraints.rates(t, q + dq, v + dv, g);
     const Vector step = change(g);
     dv -= step;
     return norm(step, 0, 1);

@@ -7,34 +7,20 @@
 // a change would deform stiff bodies at their joints, and elastic forces would lose their accuracy.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "integrators/scaled_norm.h"
 #include "lib/ode/constraints.h"
 
 namespace orthodyn::sundials {
 
-class ConstraintProjection {
- public:
-  // The constraints at (t, q). `directions`: A^-1 G^T at a state nearby, n x m. All references must outlive this
-  // object.
-  ConstraintProjection(const Constraints& constraints, double t, const ConstVectorRef& q,
-                       const Eigen::MatrixXd& directions);
+struct Projection {
+  const Constraints& constraints;
+  const Eigen::MatrixXd& directions;  // A^-1 G^T at a state nearby, n x m
+  ScaledNorm norm;                    // of the error test
+  double tolerance;                   // of positions and velocities, in this norm
 
-  // Computes the changes that put q and v on the constraints, with errors below `tolerance` in the norm of the error
-  // test. Throws RecoverableError if Newton's method does not converge.
-  void project(const ConstVectorRef& v, const ScaledNorm& norm, double tolerance, VectorRef dq, VectorRef dv) const;
-
- private:
-  // The x with G x = c.
-  Vector change(const ConstVectorRef& c) const { return directions_ * S_.solve(c); }
-
-  const Constraints& constraints_;
-  double t_;
-  Vector q_;
-  const Eigen::MatrixXd& directions_;
-  Eigen::SparseMatrix<double> G_;  // G^T
-  Eigen::PartialPivLU<Eigen::MatrixXd> S_;
+  // Computes the changes that put q and v on the constraints at t. Throws RecoverableError if Newton's method does not
+  // converge.
+  void operator()(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef dq, VectorRef dv) const;
 };
 
 }  // namespace orthodyn::sundials

@@ -54,7 +54,7 @@ class NewtonSystem {
 
   // The directions A^-1 G^T of the last set-up in which the forces of constraints move the model. Precondition: the
   // model has constraints.
-  const Eigen::MatrixXd& constraint_directions() const { return constraints_->complement().directions(); }
+  const Eigen::MatrixXd& constraint_directions() const { return constraints_->directions(); }
 
   double least_rate() const { return reduced_ ? reduced_->least_rate() : 0; }  // see NewtonMatrix::least_rate()
   std::size_t factor_bytes() const { return reduced_ ? reduced_->factor_bytes() : klu_factor_bytes(klu_.get()); }
