@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/contract/constrained_models.h"
 #include "tests/contract/models.h"
 
 namespace orthodyn::stage_solver_test {
@@ -120,6 +121,19 @@ TEST(StageSolver, FiltersByTheInverseOfTheIterationMatrix) {
   stages.solver().filter(e_q, e_v);
   EXPECT_NEAR(e_q[0] - w * e_v[0], given_q[0], 1e-13);
   EXPECT_NEAR(e_v[0] + w * (18 * e_q[0] + 2.4 * e_v[0]) / 2, given_v[0], 1e-13);
+}
+
+TEST(StageSolver, RemovesFromErrorsWhatViolatesTheConstraints) {
+  const SphericalPendulum model;
+  const double w = 0.01;
+  Stages stages(model);
+  ASSERT_TRUE(stages.solve(w));
+  Vector e_q{{0.3, -0.5, 0.4}}, e_v{{0.2, 0.7, -0.6}};
+  const Vector rod = (model.initial().q + w * model.initial().v).normalized();  // where G was computed
+  const Vector along_q = e_q - rod.dot(e_q) * rod, along_v = e_v - rod.dot(e_v) * rod;
+  stages.solver().filter(e_q, e_v);
+  EXPECT_LE((e_v - along_v).norm(), 1e-13);  // without stiffness, nothing is damped
+  EXPECT_LE((e_q - along_q - w * along_v).norm(), 1e-13);
 }
 
 }  // namespace
