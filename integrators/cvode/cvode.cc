@@ -12,6 +12,7 @@
 #include "integrators/sundials/constraint_forces.h"
 #include "integrators/sundials/constraint_projection.h"
 #include "integrators/sundials/forward_sensitivities.h"
+#include "integrators/sundials/multiplier_history.h"
 #include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/sundials_integrator.h"
 #include "lib/ode/constraints_at.h"
@@ -53,10 +54,9 @@ class Cvode final : public SundialsIntegrator {
     if (sensitivities) sensitivities_.emplace(*sensitivities, model, y(), callback_context_, statistics_);
   }
 
-  // With constraints, multipliers at t need an evaluation of the force.
   void interpolate(double t, State& out) const override {
     SundialsIntegrator::interpolate(t, out);
-    if (model_.constraints()) out.lambda = multipliers(out);
+    if (model_.constraints()) out.lambda = multipliers_.at(t, std::max(1, last_order()));
   }
 
   void interpolate_sensitivity(int i, double t, State& out) const override {
@@ -166,27 +166,37 @@ class Cvode final : public SundialsIntegrator {
     if (sensitivities_) require(CVodeSensReInit(memory(), corrector(), sensitivities_->values()));
   }
 
-  // Removes velocities that violate the constraints.
+  // Removes velocities that violate the constraints, and starts the history of multipliers.
   void fit_velocities(double t) {
-    if (model_.constraints()) ConstraintsAt(model_, t, positions(y(), extra())).fit(velocities(y(), extra()));
+    if (!model_.constraints()) return;
+    ConstraintsAt(model_, t, positions(y(), extra())).fit(velocities(y(), extra()));
+    multipliers_.clear();
+    projected_q_.setZero(model_.num_dofs());
+    projected_v_.setZero(model_.num_dofs());
+    add_multipliers(t);
   }
 
-  // The multipliers at a state; empty if the force cannot be evaluated there.
-  Vector multipliers(const State& at) const {
-    Vector a(at.q.size());
+  // Computes the multipliers at the end of a step, at the solution of its equations. The projection deforms bodies at
+  // their joints: elastic forces, and multipliers, would be less accurate behind it, and between the ends of steps.
+  void add_multipliers(double t) {
+    Vector a(model_.num_dofs());
+    const Vector q = positions(y(), extra()) - projected_q_, v = velocities(y(), extra()) - projected_v_;
     try {
-      if (internal_) internal_->internal().force(at.t, at.q, at.v, {InternalState::Kind::given, at.z.data(), 0}, a);
-      else model_.force(at.t, at.q, at.v, a);
+      if (internal_)
+        internal_->internal().force(t, q, v, {InternalState::Kind::given, internal_part(y(), extra()).data(), 0}, a);
+      else model_.force(t, q, v, a);
     } catch (const RecoverableError&) {
-      return {};
+      return multipliers_.clear();
     }
     model_.solve_mass(a);
-    return constraint_forces_.multipliers(at.t, at.q, at.v, a);
+    multipliers_.add(t, constraint_forces_.multipliers(t, q, v, a));
   }
 
   int advance(double t_stop, double& t) override {
     require(CVodeSetStopTime(memory(), t_stop));
-    return step_with_matrix_renewal([&] { return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP); });
+    const int flag = step_with_matrix_renewal([&] { return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP); });
+    if (flag >= 0 && model_.constraints()) add_multipliers(t);
+    return flag;
   }
 
   int last_order() const override {
@@ -277,6 +287,8 @@ class Cvode final : public SundialsIntegrator {
       const Projection project{*me.model_.constraints(), me.newton_system_->constraint_directions(),
                                ScaledNorm(me.options_.rtol, me.scales_), tolerance};
       project(t, positions(y, m), velocities(y, m), positions(change, m), velocities(change, m));
+      me.projected_q_ = positions(change, m);
+      me.projected_v_ = velocities(change, m);
     });
   }
 
@@ -295,7 +307,9 @@ class Cvode final : public SundialsIntegrator {
   }
 
   CvodeMethod method_;
-  mutable ConstraintForces constraint_forces_;  // mutable: its results depend on earlier calls by round-off only
+  ConstraintForces constraint_forces_;
+  Vector projected_q_, projected_v_;  // the changes by the last projection
+  MultiplierHistory multipliers_;
   std::optional<ForwardSensitivities> sensitivities_;
   std::optional<SecantNewton> secant_newton_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
