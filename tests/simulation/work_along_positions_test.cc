@@ -25,6 +25,22 @@ class Told : public Integrator {
   Statistics statistics_;
 };
 
+// The same in steps from 0 to 1 and from 1 to 1.5, whose mean states it tells.
+class ToldByMeans : public Told {
+ public:
+  using Told::Told;
+  void take_second_step() { begin_ = 1, end_ = 1.5; }
+  std::optional<State> mean_state() const override {
+    State first, last;
+    interpolate(begin_, first);
+    interpolate(end_, last);
+    return State{(begin_ + end_) / 2, (first.q + last.q) / 2, (last.q - first.q) / (end_ - begin_)};
+  }
+
+ private:
+  double begin_ = 0, end_ = 1;
+};
+
 BuiltScene bar() {
   return build_text(
       "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}\n"
@@ -83,6 +99,38 @@ TEST(WorkAlongPositions, OfAConstantForceIsForceTimesWay) {
     meter.on_step({t, 0, 1}, ObservedState(model, state), integrator);
     EXPECT_NEAR(meter.last().loads, (t * t * t - t) * load.dot(direction), 1e-9 * std::abs(load.dot(direction))) << t;
   }
+}
+
+// Outputs lie within the steps.
+TEST(WorkAtMeanStates, OfAConstantForceIsForceTimesWay) {
+  const BuiltScene built = bar();
+  const FemModel& model = *built.model;
+  const Vector direction = arbitrary(model.num_dofs(), 1e-3), noise = arbitrary(model.num_dofs(), 2e-3).reverse();
+  const Vector still = Vector::Zero(model.num_dofs());
+  Vector load(model.num_dofs());
+  model.force(0, still, still, load);
+  ToldByMeans integrator(direction, noise);
+  EnergyMeter meter(model, integrator, EnergyTimes::outputs);
+  const auto observe = [&](double t, auto&& call) {
+    State state;
+    integrator.interpolate(t, state);
+    call(ObservedState(model, state));
+  };
+  const auto output = [&](double t) {
+    observe(t, [&](const ObservedState& at) { meter.on_output(at); });
+    EXPECT_NEAR(meter.last().loads, (t * t * t - t) * load.dot(direction), 1e-9 * std::abs(load.dot(direction))) << t;
+  };
+  const auto end_step = [&](double t) {
+    observe(t, [&](const ObservedState& at) { meter.on_step({t, 0, 1}, at, integrator); });
+  };
+  observe(0, [&](const ObservedState& at) { meter.on_start(at); });
+  output(0.3);
+  output(0.7);
+  end_step(1);
+  integrator.take_second_step();
+  output(1.2);
+  output(1.5);
+  end_step(1.5);
 }
 
 }  // namespace

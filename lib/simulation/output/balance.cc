@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/ode/hermite.h"
+
 namespace orthodyn {
 
 namespace {
@@ -60,7 +62,7 @@ void EnergyMeter::advance_powers(double t) {
   const double begin = powers_time_, h = t - begin;
   if ((!traits.dissipative && !traits.loaded) || h <= 0) return;
   powers_time_ = t;
-  if (const auto mean = integrator_.mean_state()) return add_powers(*mean, h);
+  if (const auto mean = integrator_.mean_state()) return advance_by_means(*mean, begin, t);
   const double part = h / smooth_parts(integrator_, h);
   for (double done = 0; done < h - part / 2; done += part) add_work(begin + done, part);
 }
@@ -79,13 +81,39 @@ void EnergyMeter::add_work(double begin, double duration) {
   const Vector change = last.q - first.q, bend = root * (at[0].q + at[1].q - first.q - last.q);
   at[0].v = (change + bend) / duration;
   at[1].v = (change - bend) / duration;
-  for (const State& state : at) add_powers(state, duration / 2);
+  for (const State& state : at) {
+    const ObservedState observed(model_, state);
+    dissipated_ += duration / 2 * dissipation(observed);
+    load_work_ += duration / 2 * load_power(observed);
+  }
 }
 
-void EnergyMeter::add_powers(const State& at, double duration) {
-  const ObservedState observed(model_, at);
-  if (model_.traits().dissipative) dissipated_ += duration * observed.evaluate("power.dissipated")[0];
-  if (model_.traits().loaded) load_work_ += duration * observed.evaluate("power.loads")[0];
+// The force of a motor may change much within a long step. The dissipation is divided evenly: dense output oscillates
+// in stiff modes.
+void EnergyMeter::advance_by_means(const State& whole, double begin, double t) {
+  constexpr double kEnd = 1 - 1e-9;
+  if (whole.t != step_.middle) step_ = {whole.t, begin, load_work_};
+  const ObservedState observed(model_, whole);
+  dissipated_ += (t - begin) * dissipation(observed);
+  const double part = t - step_.begin;
+  if (part >= kEnd * 2 * (whole.t - step_.begin)) {
+    load_work_ = step_.load_work + part * load_power(observed);
+    return;
+  }
+  State first, last;
+  integrator_.interpolate(step_.begin, first);
+  integrator_.interpolate(t, last);
+  State mean = mean_state({first.t, first.q, first.v, {}, first.lambda}, {last.t, last.q, last.v, {}, last.lambda});
+  mean.z = whole.z;
+  load_work_ = step_.load_work + part * load_power(ObservedState(model_, mean));
+}
+
+double EnergyMeter::dissipation(const ObservedState& at) const {
+  return model_.traits().dissipative ? at.evaluate("power.dissipated")[0] : 0;
+}
+
+double EnergyMeter::load_power(const ObservedState& at) const {
+  return model_.traits().loaded ? at.evaluate("power.loads")[0] : 0;
 }
 
 std::vector<std::string> EnergyMeter::columns() {

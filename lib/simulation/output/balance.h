@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ class EnergyMeter : public Observer {
  public:
   // `integrator`: the integrator of the run. Model and integrator must outlive the meter. Unless they are identically
   // zero, the powers of loads and damping are integrated over every step: along the positions of the dense output, or
-  // at the integrator's mean state if it has one.
+  // at the integrator's mean state if it has one. Until a time within the step, the mean is then that until this time.
   EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times = EnergyTimes::steps);
   void on_start(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override { observe(observed); }
@@ -49,14 +50,22 @@ class EnergyMeter : public Observer {
   // Integrates the powers up to t (s), which lies within the last step.
   void advance_powers(double t);
   void add_work(double begin, double duration);
-  void add_powers(const State& at, double duration);
+  // The same from the mean state of the last step, which began at `begin` or at an earlier call.
+  void advance_by_means(const State& whole, double begin, double t);
+  double dissipation(const ObservedState& at) const;  // W
+  double load_power(const ObservedState& at) const;   // W
   void observe(const ObservedState& observed);
   void evaluate_energies(const ObservedState& observed);
 
   const Model& model_;
   const Integrator& integrator_;
   EnergyTimes times_;
+  // The last step with a mean state: times of its middle and its begin (s), work of loads until its begin (J).
+  struct Step {
+    double middle = -std::numeric_limits<double>::infinity(), begin = 0, load_work = 0;
+  };
   double powers_time_ = 0, dissipated_ = 0, load_work_ = 0;  // s; energies until powers_time_, J
+  Step step_;
   EnergyBalance first_, last_;
   double time_ = 0, drift_ = 0, scale_ = 0;
   std::size_t states_ = 0;
