@@ -4,18 +4,20 @@
 //
 // A velocity-dependent force is evaluated at the predicted velocity v + h a. This keeps order 2 without a matrix but
 // lowers the stability limit (critical_step.h), so damping costs steps. Without damping the map is symplectic and the
-// energy stays bounded. A consistent mass costs one solve per step. Sources: Newmark 1959 (beta = 0); Verlet 1967;
-// Hughes 1987, 9.1.
+// energy stays bounded. A consistent mass costs one solve per step. Constraints: rattle.h. Sources: Newmark 1959 (beta
+// = 0); Verlet 1967; Hughes 1987, 9.1.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "integrators/critical_step.h"
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
 #include "integrators/native/explicit_step.h"
+#include "integrators/native/rattle.h"
 #include "lib/config/values.h"
 
 namespace orthodyn {
@@ -86,13 +88,14 @@ class CentralDifferences : public ExplicitStep {
         monitor_(model, statistics_),
         unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t),
         extent_(extent(model)) {
+    if (model.constraints()) rattle_.emplace(model, std::isfinite(extent_) ? extent_ : 0);
     check_start(task);
     choose_step();
   }
 
   std::size_t bytes() const override {
     const auto n = static_cast<std::size_t>(model_.num_dofs());
-    return (10 * n + 3 * model_.pattern().row.size()) * sizeof(double);
+    return (10 * n + 3 * model_.pattern().row.size()) * sizeof(double) + (rattle_ ? rattle_->bytes() : 0);
   }
 
   bool adaptive() const override { return false; }
@@ -145,7 +148,10 @@ class CentralDifferences : public ExplicitStep {
     return omega > 0 ? fmt::format(", {:.6g} s by elements at rest, undamped", 2 / omega) : "";
   }
 
-  void begin() override { update({end().t, end().q, end().v}); }
+  void begin(StepEnd& at) override {
+    if (rattle_) rattle_->finish(at);
+    update({at.t, at.q, at.v});
+  }
 
   void update(const State& state) {
     monitor_.update(state);
@@ -156,14 +162,24 @@ class CentralDifferences : public ExplicitStep {
     const StepEnd& from = end();
     const double rest = t_stop - from.t, h = length(rest);
     next_.t = h == rest ? t_stop : from.t + h;
-    next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
-    predicted_ = from.v + h * from.a;
+    a_ = rattle_ ? rattle_->free_acceleration() : from.a;
+    next_.q = from.q + h * from.v + (0.5 * h * h) * a_;
+    if (rattle_) constrain(h);
+    predicted_ = from.v + h * a_;
     const VectorSpace space = model_.space();
     if (!space.all(next_.q.allFinite() && predicted_.allFinite())) fail_diverged();
     acceleration(next_.t, next_.q, predicted_, next_.a);
     if (has_diverged(h)) fail_diverged();
-    next_.v = from.v + (0.5 * h) * (from.a + next_.a);
+    next_.v = from.v + (0.5 * h) * (a_ + next_.a);
+    if (rattle_) rattle_->finish(next_);
     if (monitor_.due()) update({next_.t, next_.q, next_.v});
+  }
+
+  // Puts next_.q on the constraints, and adds their forces to a_.
+  void constrain(double h) {
+    const Vector change = rattle_->change(next_.t, next_.q);
+    next_.q += change;
+    a_ += 2 / (h * h) * change;
   }
 
   // A wave crosses about one element in a stable step, so no force moves a node by the size of the body in one step.
@@ -204,7 +220,8 @@ class CentralDifferences : public ExplicitStep {
   double unbounded_;  // step without stiffness and damping, s
   double extent_;     // m
   double step_ = 0, first_step_ = 0, first_critical_ = 0;
-  Vector predicted_;
+  Vector a_, predicted_;          // m/s^2, of the first half of the step; m/s
+  std::optional<Rattle> rattle_;  // only for models with constraints
 };
 
 class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>, public CentralOptions {
@@ -234,6 +251,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
                         "Newmark 1959 (beta = 0); Verlet 1967; Hughes 1987, 9.1");
   }
   bool runs_on_ranks() const override { return true; }
+  bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     return std::make_unique<CentralDifferences>(model, task, *this);
   }

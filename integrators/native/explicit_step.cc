@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "integrators/run_checks.h"
+#include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
 
@@ -18,9 +19,13 @@ void ExplicitStep::start(const State& state) {
   end_.t = state.t;
   end_.q = state.q;
   end_.v = state.v;
+  if (model_.constraints()) {
+    ConstraintsAt(model_, end_.t, end_.q).fit_positions(end_.q);
+    ConstraintsAt(model_, end_.t, end_.q).fit(end_.v);
+  }
   try {
     acceleration(end_.t, end_.q, end_.v, end_.a);
-    begin();
+    begin(end_);
   } catch (const RecoverableError& e) {
     throw initial_force_error(remedies_.name, end_.t, e.what());
   }
@@ -53,7 +58,12 @@ void ExplicitStep::interpolate(double t, State& out) const {
   if (t == end_.t) {
     out.q = end_.q;
     out.v = end_.v;
+    out.lambda = end_.lambda;
     return;
+  }
+  if (model_.constraints()) {
+    const double s = (t - begin_.t) / (end_.t - begin_.t);
+    out.lambda = (1 - s) * begin_.lambda + s * end_.lambda;
   }
   orthodyn::interpolate(begin_, end_, t, out.q, out.v);
 }

@@ -25,8 +25,8 @@ class ExplicitStep : public Integrator {
   };
   ExplicitStep(const Model& model, const Remedies& remedies, int order, long max_steps);
 
-  // Called at a start or restart, when end() is the initial state.
-  virtual void begin() {}
+  // Called at a start or restart with the initial state, whose a is M^-1 f.
+  virtual void begin(StepEnd&) {}
   // Takes one step from end() to next_ (t, q, v, a), which ends at t_stop at the latest. If it throws RecoverableError,
   // step() throws RunError.
   virtual void advance(double t_stop) = 0;

@@ -66,7 +66,7 @@ class ExponentialRosenbrock : public ExplicitStep {
     return {"exponential_rosenbrock", "lower integrator.h_max", "integrator.rtol"};
   }
 
-  void begin() override { adaptive_.restart(); }
+  void begin(StepEnd&) override { adaptive_.restart(); }
 
   void advance(double t_stop) override {
     linearize(t_stop);
