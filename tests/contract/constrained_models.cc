@@ -37,7 +37,7 @@ State SphericalPendulum::initial() const {
 
 void StiffPendulum::force(double, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
   const Eigen::Vector2d r = q.tail<2>() - q.head<2>(), rate = v.tail<2>() - v.head<2>(), n = r.normalized();
-  const Eigen::Vector2d pull = (kStiffness * (r.norm() - kLength) + kDamping * n.dot(rate)) * n;
+  const Eigen::Vector2d pull = (stiffness_ * (r.norm() - kLength) + damping_ * n.dot(rate)) * n;
   f << pull, -pull;
   f[1] -= kGravity;
   f[3] -= kGravity;
@@ -62,12 +62,12 @@ Matrix on_difference(const Eigen::Matrix2d& B) {
 Matrix StiffPendulum::stiffness(double, const Vector& q, const Vector&, TangentKind) const {
   const Eigen::Vector2d r = q.tail<2>() - q.head<2>(), n = r.normalized();
   const double slack = kLength / r.norm();
-  return kStiffness * on_difference((1 - slack) * Eigen::Matrix2d::Identity() + slack * n * n.transpose());
+  return stiffness_ * on_difference((1 - slack) * Eigen::Matrix2d::Identity() + slack * n * n.transpose());
 }
 
 Matrix StiffPendulum::damping(const Vector& q) const {
   const Eigen::Vector2d n = (q.tail<2>() - q.head<2>()).normalized();
-  return kDamping * on_difference(n * n.transpose());
+  return damping_ * on_difference(n * n.transpose());
 }
 
 std::vector<State> fine_motion(const PivotedModel& model, const std::vector<double>& times, double step) {

@@ -53,17 +53,22 @@ class SphericalPendulum : public PivotedModel {
 };
 
 // A point of 1 kg on a rod in the plane, and another one that hangs from it by a stiff, damped spring of 0.5 m: q =
-// (x1, y1, x2, y2). The spring oscillates at 140 rad/s, the pendulum at 3 rad/s.
+// (x1, y1, x2, y2). The spring oscillates at 140 rad/s by default, the pendulum at 3 rad/s.
 class StiffPendulum : public PivotedModel {
  public:
-  StiffPendulum() : PivotedModel(Matrix::Identity(4, 4), 2, 0) { traits_.damping_matrix = true; }
+  // Of the spring, N/m and N s/m.
+  explicit StiffPendulum(double stiffness = 1e4, double damping = 70)
+      : PivotedModel(Matrix::Identity(4, 4), 2, 0), stiffness_(stiffness), damping_(damping) {
+    traits_.damping_matrix = true;
+  }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   State initial() const override;
   double end() const override { return 1; }
   Scales scales() const override { return {1, 3}; }
 
  private:
-  static constexpr double kStiffness = 1e4, kDamping = 70, kLength = 0.5;  // N/m, N s/m, m
+  static constexpr double kLength = 0.5;  // m
+  double stiffness_, damping_;
 
   Matrix stiffness(double t, const Vector& q, const Vector& v, TangentKind kind) const override;
   Matrix damping(const Vector& q) const override;

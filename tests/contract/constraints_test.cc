@@ -319,6 +319,23 @@ TEST(ConstrainedMethods, StepsDoNotGrowAndShrinkInTurn) {
     }
 }
 
+// A spring of 14,000 rad/s, whose force changes by ten times the largest multiplier if its length changes by the
+// tolerance.
+TEST(ConstrainedMethods, MultipliersAreAccurateBesideStiffBodies) {
+  const StiffPendulum model(1e8, 1e4);
+  const auto fine = make(model, "ida_bdf, rtol: 1e-9");
+  std::vector<State> exact;
+  const auto times = checkpoints(model);
+  integrate(model, *fine, [&](const StepInfo& info, const Integrator& i) {
+    for (State state; exact.size() < times.size() && times[exact.size()] <= info.t;) {
+      i.interpolate(times[exact.size()], state);
+      exact.push_back(state);
+    }
+  });
+  for (const char* type : {"ida_bdf", "cvode_bdf", "generalized_alpha", "hht_alpha"})
+    EXPECT_LE(errors_of(model, exact, fmt::format("{}, rtol: 1e-4", type)).multipliers, 0.01) << type;
+}
+
 TEST(ConstrainedMethods, KluFullIsRefused) {
   for (const char* type : {"ida_bdf", "cvode_bdf"})
     EXPECT_THAT(refusal(free_pendulum(), std::string(type) + ", linear_solver: klu_full"),
