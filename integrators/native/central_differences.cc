@@ -124,6 +124,10 @@ class CentralDifferences : public ExplicitStep {
           fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, or use an "
                       "implicit integrator",
                       *options_.step.value, first_critical_));
+    if (!options_.step.value && rattle_ && !std::isfinite(first_critical_))
+      throw ConfigError(
+          "step: auto finds no critical step, as nothing in the scene is deformable at the start: set a step that "
+          "resolves the motion and later impacts, or use an implicit integrator");
     if (!options_.step.value) refuse_too_many_steps(task);
   }
 

@@ -333,7 +333,12 @@ TEST(ConstrainedMethods, MultipliersAreAccurateBesideStiffBodies) {
     }
   });
   for (const char* type : {"ida_bdf", "cvode_bdf", "generalized_alpha", "hht_alpha"})
-    EXPECT_LE(errors_of(model, exact, fmt::format("{}, rtol: 1e-4", type)).multipliers, 0.01) << type;
+    EXPECT_LE(errors_of(model, exact, fmt::format("{}, rtol: 1e-4", type)).multipliers, 0.05) << type;
+}
+
+TEST(ConstrainedCentralDifferences, NeedAStepWithoutStiffness) {
+  EXPECT_THAT(refusal(free_pendulum(), "central_differences"), testing::HasSubstr("set a step"));
+  EXPECT_EQ(refusal(stiff_pendulum(), "central_differences"), "");
 }
 
 TEST(ConstrainedMethods, KluFullIsRefused) {
