@@ -108,7 +108,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
     if (task.sensitivities) return {.method = "cvode_bdf", .rationale = "it integrates sensitivities with the motion"};
-    if (model.constraints()) return {.method = "ida_bdf", .rationale = "it solves the constraints of the joints"};
+    if (model.constraints()) return method_with_constraints(model);
     if (model.internal_variables())
       return {.method = "cvode_bdf", .rationale = "it controls the error of viscoelastic strains"};
     // central_differences cannot limit its steps by h0, h_min and h_max.
@@ -117,6 +117,15 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public ErrorCont
     MethodChoice stepping = choose_method(cost, rtol, limits_steps ? 0 : static_cast<double>(max_steps));
     if (auto modal = plan_modal(model, task, cost, *this, stepping)) return *std::move(modal);
     return stepping;
+  }
+
+  // At loose tolerances, ida_bdf damps the vibrations that would dominate the forces of joints.
+  MethodChoice method_with_constraints(const Model& model) const {
+    constexpr double kTight = 1e-5;
+    if (rtol > kTight || model.internal_variables())
+      return {.method = "ida_bdf", .rationale = "it solves the constraints of joints or rigid bodies"};
+    return {.method = "generalized_alpha",
+            .rationale = "it solves the constraints of joints or rigid bodies, and is the most accurate at this rtol"};
   }
 
   void check_method(const Config& config) const {

@@ -206,11 +206,13 @@ TEST(Joints, OtherMethodsAreRefusedByName) {
   }
 }
 
-TEST(Joints, AutoChoosesIda) {
-  const BuiltTestScene s(pendulum("type: auto"));
-  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
-  const auto decisions = integrator->decisions();
-  EXPECT_THAT(decisions, testing::Contains(testing::Pair("method", "ida_bdf")));
+TEST(Joints, AutoChoosesByTheTolerance) {
+  for (const auto& [options, method] :
+       {std::pair("type: auto, rtol: 1e-3", "ida_bdf"), std::pair("type: auto, rtol: 1e-5", "generalized_alpha")}) {
+    const BuiltTestScene s(pendulum(options));
+    const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+    EXPECT_THAT(integrator->decisions(), testing::Contains(testing::Pair("method", method)));
+  }
 }
 
 }  // namespace
