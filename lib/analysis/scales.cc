@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "lib/core/errors.h"
 #include "lib/core/golden_ratio_sample.h"
@@ -83,29 +82,6 @@ double size_of_motion(const VectorSpace& space, const State& initial, const Stat
          3 * statics.velocity_amplitude + space.largest_entry(initial.q);
 }
 
-// The largest rms of the initial velocities of a region, weighted by mass (m/s): a light body on a heavy one moves far
-// faster than their energy tells. 0 on several ranks, which have one body.
-double speed_of_regions(const FemModel& model, const State& initial) {
-  const FemModel::Parts& parts = model.parts();
-  if (parts.subdomain || model.space().is_zero(initial.v)) return 0;
-  const NodalExpansion nodal(parts, initial.t, initial.q, initial.v);
-  const NodalVector& v = nodal.state().v;
-  double largest = 0;
-  for (int region = 0; region < static_cast<int>(parts.mesh.region_names.size()); ++region) {
-    std::set<int> nodes;
-    for (std::size_t cell = 0; cell < parts.mesh.cells.size(); ++cell)
-      if (parts.mesh.region_of[cell] == region)
-        nodes.insert(parts.mesh.cells[cell].begin(), parts.mesh.cells[cell].end());
-    double mass = 0, sum = 0;
-    for (const int node : nodes) {
-      mass += parts.mass->nodal()[node];
-      sum += parts.mass->nodal()[node] * v.col(node).squaredNorm();
-    }
-    if (mass > 0) largest = std::max(largest, std::sqrt(sum / mass));
-  }
-  return largest;
-}
-
 constexpr double kLeastShare = 1e-6;  // smallest position scale relative to the extent, well above round-off
 
 double contact_stiffness(const FemModel& model) {
@@ -130,8 +106,7 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
                                                     : extent * space.sum_of_sizes(statics.load);
   const Reach supports = reach_of_supports(model, initial.t, end), motors = reach_of_motors(model, initial.t, end);
   const Reach reach{std::max(supports.distance, motors.distance), std::max(supports.speed, motors.speed)};
-  Scales scales{0.1 * extent, std::max(3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed),
-                                       speed_of_regions(model, initial))};
+  Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
   if (const double size = size_of_motion(space, initial, statics, reach); size > 0 && size < scales.position) {
     scales.omega = 2.0 / 3 * scales.velocity / size;
     scales.position = size;

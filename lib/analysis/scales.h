@@ -10,8 +10,7 @@
 //   of c u and the largest support displacement, three times the amplitude of vibrations that initial velocities start,
 //   and the initial displacement. Contact of nodal stiffness k limits the position to sqrt(2 (E0 + W) / k), but not
 //   below 1e-6 L, because position errors become errors of the contact energy.
-//   Velocity: 3 sqrt(2 (E0 + W) / m + V^2), at least the rms initial velocity of each region, or L / duration if all
-//   of these are zero.
+//   Velocity: 3 sqrt(2 (E0 + W) / m + V^2), or L / duration if this expression is zero.
 //   Frequency: 2/3 velocity / size if the size of the motion is below L / 10, otherwise unknown (0). The factor is 2/3
 //   because the velocity is three times an rms value and the size twice an amplitude.
 #pragma once

@@ -54,10 +54,8 @@ const Spec<Region>& Region::spec() {
                "materials at large strain, such as rubber; its energy keeps elements from inverting.")
           .key("rigid", &Region::rigid,
                "The region moves as a rigid body, which has no stresses. true: its material gives the density. A "
-               "section "
-               "gives mass, centre and moments of inertia in place of the mesh and the density. Rigid regions that "
-               "share "
-               "nodes are one body.")
+               "section gives mass, centre and moments of inertia in place of the mesh and the density. Rigid "
+               "regions that share nodes are one body.")
           .key("integration", &Region::integration,
                "Integration points of hexahedra of 20 nodes. reduced: 8 points, accurate for thin "
                "bodies. full: 14 points, for rows of cells that are one cell wide and high: with 8 "

@@ -41,8 +41,7 @@ const Spec<GivenInertia>& GivenInertia::spec() {
           .key("center", &G::center, "Centre of mass in space, at rest.", {.required = true, .unit = "m"})
           .key("inertia", &G::inertia,
                "Moments of inertia about the centre along the axes of space, at rest: xx, yy, zz, or xx, yy, zz, xy, "
-               "yz, "
-               "zx, where xy is -integral of density x y.",
+               "yz, zx, where xy is -integral of density x y.",
                {.required = true, .unit = "kg m^2"})
           .check(check_moments);
   return s;

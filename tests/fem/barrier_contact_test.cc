@@ -96,6 +96,7 @@ TEST(Pierces, ATriangleInsideItsSidesOnly) {
   EXPECT_FALSE(pierces(at(0.2, 0.3, 0.1, 1), t));
   EXPECT_FALSE(pierces(at(0.7, 0.7, -1, 1), t));
   EXPECT_FALSE(pierces(at(-0.1, 0.3, -1, 1), t));
+  EXPECT_TRUE(pierces(at(0, 0.5, -1, 1), t)) << "side";
 }
 
 // Two blocks at the distance `apart`, the upper one turned by `angle` about the axis z.
@@ -296,6 +297,7 @@ TEST(BarrierContact, IsRefusedWithTheReason) {
   };
   EXPECT_EQ(message(blocks("cells: [2, 2, 1]", 0.03, 0.1)), "accepted");
   EXPECT_THAT(message(blocks("cells: [2, 2, 1]", 0, 0.1)), HasSubstr("at rest"));
+  EXPECT_THAT(message(blocks("cells: [2, 2, 1]", 1e-14, 0.1)), HasSubstr("next to touching"));
   EXPECT_THAT(message(blocks("cells: [2, 2, 1]", -0.05, 0.1)), HasSubstr("cross"));
   EXPECT_EQ(message(ring_of("")), "accepted");
   EXPECT_THAT(message(ring_of(", gap: 0.2")), HasSubstr("choose a smaller gap"));

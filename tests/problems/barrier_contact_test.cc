@@ -72,6 +72,31 @@ integrator: {{type: {}, rtol: 1e-3}}
     }
 }
 
+// Two sheets whose cells are 25 times as wide as the sheets are thick.
+TEST(BarrierContact, StopsThinSheetsOfWideCells) {
+  for (const char* type : {"cvode_bdf", "generalized_alpha"}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    low: {{mesh: {{type: box, size: [0.2, 0.2, 0.002], cells: [4, 4, 1], elements: hexahedra, order: 1}}, translation: [-0.1, -0.1, 0]}}
+    high: {{mesh: {{type: box, size: [0.17, 0.17, 0.002], cells: [4, 4, 1], elements: hexahedra, order: 1}}, translation: [-0.08, -0.09, 0.05]}}
+materials: {{m: {{type: orthotropic_stable, density: 700, young: [1e8, 5e7, 5e7], nu: 0.3}}}}
+terms: [{{between: [low, high], stiffness: 1e10, type: barrier_contact, gap: 5e-4}}]
+damping: {{stiffness: 1e-4}}
+initial: {{velocity_field: ["0", "0", "z > 0.02 ? -20 : 0"]}}
+time: {{end: 0.006}}
+integrator: {{type: {}, rtol: 1e-3}}
+)",
+                                       type));
+    State last;
+    const Outcome outcome = run_scene(s, kFrames, [&](const State& state) { last = state; });
+    ASSERT_EQ(outcome.status, Outcome::Status::completed) << type << outcome.message;
+    const NodalVector x = s.positions(last.q);
+    EXPECT_GT(x.row(2).tail(50).mean(), x.row(2).head(50).mean()) << type;
+  }
+}
+
 TEST(Contact, TellsOfFixedStepsThatMayMissIt) {
   const BuiltTestScene s(R"(
 mesh:

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "lib/fem/surface.h"
+#include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
@@ -36,10 +38,26 @@ double angle_at(const Triangle& t, int k) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+// The least volume of a cell over the area of its face, times 3 for tetrahedra, whose other corner is above the face.
+double least_height(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
+  const std::vector<MeshFace> all = sorted_faces(mesh);
+  double least = std::numeric_limits<double>::infinity();
+  for (const FaceCorners& face : faces) {
+    const auto [begin, end] = find_faces(all, face);
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto cell = static_cast<std::size_t>(all[k].cell);
+      const CellShape shape = mesh.cells.shape(cell);
+      const double times = shape == CellShape::tet4 || shape == CellShape::tet10 ? 3 : 1;
+      least = std::min(least, times * cell_volume(mesh, cell) / surface_area(mesh, {face}));
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces)
-    : areas_(node_areas(mesh, faces)) {
+    : areas_(node_areas(mesh, faces)), thickness_(least_height(mesh, faces)) {
   const Cells cells = face_cells(mesh, faces);
   std::map<std::pair<int, int>, int> uses;
   double sum = 0;

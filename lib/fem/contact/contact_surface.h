@@ -31,6 +31,8 @@ class ContactSurface {
   const std::vector<Edge>& edges() const { return edges_; }  // of all triangles
   double mean_edge() const { return mean_edge_; }            // of the triangles at rest, m
 
+  double thickness() const { return thickness_; }  // the least height of a cell at the surface, at rest, m
+
   // Whether the point with these barycentric coordinates lies on the boundary of the surface.
   bool is_on_boundary(const Corners& triangle, const Vec3& L) const;
 
@@ -45,7 +47,7 @@ class ContactSurface {
   std::vector<Edge> edges_;
   std::set<std::pair<int, int>> boundary_edges_;  // node pairs, ascending
   std::set<int> boundary_nodes_;
-  double mean_edge_ = 0;
+  double mean_edge_ = 0, thickness_ = 0;
 };
 
 // A node below a surface: its nearest point has a depth. `distance.n` points into the body, from the surface to the

@@ -13,7 +13,7 @@ namespace orthodyn {
 
 namespace {
 
-using Box = Eigen::AlignedBox3d;
+using Bounds = Eigen::AlignedBox3d;
 using Corners = ContactSurface::Corners;
 
 Triangle placed(const Corners& nodes, const NodalVector& x) {
@@ -29,30 +29,39 @@ Segment placed(const std::array<int, 2>& nodes, const NodalVector& x) {
 }
 
 template <class Columns>
-Box box_of(const Columns& points) {
+Bounds box_of(const Columns& points) {
   return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
 }
 
-Box grown(const Box& box, double by) { return {(box.min().array() - by).matrix(), (box.max().array() + by).matrix()}; }
+Bounds grown(const Bounds& box, double by) {
+  return {(box.min().array() - by).matrix(), (box.max().array() + by).matrix()};
+}
 
 bool has(const Corners& corners, int node) { return std::find(corners.begin(), corners.end(), node) != corners.end(); }
 
-// A tree of boxes, for searches.
+// A tree of those boxes that meet a region, for searches.
 class BoxTree {
  public:
-  explicit BoxTree(const std::vector<Box>& boxes) {
-    std::vector<int> numbers(boxes.size());
-    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<int>(k);
-    tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+  BoxTree(const std::vector<Bounds>& boxes, const Bounds& region) {
+    std::vector<int> numbers;
+    std::vector<Bounds> kept;
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+      if (region.intersects(boxes[k])) {
+        numbers.push_back(static_cast<int>(k));
+        kept.push_back(boxes[k]);
+      }
+    is_empty_ = numbers.empty();
+    if (!is_empty_) tree_.init(numbers.begin(), numbers.end(), kept.begin(), kept.end());
   }
 
   // visit(number) of each box that may meet `box`
   template <class Visit>
-  void for_each_near(const Box& box, Visit&& visit) const {
+  void for_each_near(const Bounds& box, Visit&& visit) const {
+    if (is_empty_) return;
     struct Query {
-      const Box& box;
+      const Bounds& box;
       Visit& visit;
-      bool intersectVolume(const Box& other) const { return box.intersects(other); }
+      bool intersectVolume(const Bounds& other) const { return box.intersects(other); }
       bool intersectObject(int number) const {
         visit(number);
         return false;
@@ -63,15 +72,16 @@ class BoxTree {
 
  private:
   Eigen::KdBVH<double, 3, int> tree_;
+  bool is_empty_ = true;
 };
 
-// The surface at the positions x.
+// The triangles of a surface at the positions x that meet a region.
 struct SearchedSurface {
-  SearchedSurface(const ContactSurface& s, const NodalVector& at)
-      : surface(s), x(at), triangles(boxes_of(s.triangles(), at)) {}
+  SearchedSurface(const ContactSurface& s, const NodalVector& at, const Bounds& region)
+      : surface(s), x(at), triangles(boxes_of(s.triangles(), at), region) {}
 
-  static std::vector<Box> boxes_of(const std::vector<Corners>& all, const NodalVector& x) {
-    std::vector<Box> out;
+  static std::vector<Bounds> boxes_of(const std::vector<Corners>& all, const NodalVector& x) {
+    std::vector<Bounds> out;
     out.reserve(all.size());
     for (const Corners& nodes : all) out.push_back(box_of(placed(nodes, x)));
     return out;
@@ -177,10 +187,12 @@ class FeaturesNearNode {
   std::map<Corners, Feature> features_;
 };
 
-// The places of the nodes of `own` near the other surface.
-void add_nodes(const ContactSurface& own, const SearchedSurface& other, double gap, std::vector<NearPlace>& out) {
+// The places of the nodes of `own` in a region near the other surface.
+void add_nodes(const ContactSurface& own, const SearchedSurface& other, const Bounds& region, double gap,
+               std::vector<NearPlace>& out) {
   for (const auto& [node, area] : own.areas()) {
     const Vec3 x = other.x.col(node);
+    if (!region.contains(x)) continue;
     std::optional<FeaturesNearNode> features;
     other.triangles.for_each_near(grown({x, x}, gap), [&, node = node](int k) {
       const Corners& nodes = other.surface.triangles()[static_cast<std::size_t>(k)];
@@ -200,20 +212,21 @@ bool share_a_node(const std::array<int, 2>& a, const std::array<int, 2>& b) {
   return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
 }
 
-// The places of pairs of edges, of which `other` are those of the surface `second`.
-void add_edges(const ContactSurface& first, const ContactSurface& second, const NodalVector& x, double gap,
-               std::vector<NearPlace>& out) {
+// The places of pairs of edges in a region.
+void add_edges(const ContactSurface& first, const ContactSurface& second, const NodalVector& x, const Bounds& region,
+               double gap, std::vector<NearPlace>& out) {
   constexpr double kShare = 0.1;      // of the areas of edges, beside those of nodes
   constexpr double kParallel = 1e-3;  // squared sine of the angle below which edges count less
-  constexpr double kNone = 1e-12;
-  std::vector<Box> boxes;
+  constexpr double kNone = 1e-20;
+  std::vector<Bounds> boxes;
   boxes.reserve(second.edges().size());
   for (const auto& edge : second.edges()) boxes.push_back(box_of(placed(edge.nodes, x)));
-  const BoxTree tree(boxes);
+  const BoxTree tree(boxes, region);
   const bool is_one = &first == &second;
   for (std::size_t i = 0; i < first.edges().size(); ++i) {
     const auto& own = first.edges()[i];
     const Segment segment = placed(own.nodes, x);
+    if (!region.intersects(box_of(segment))) continue;
     tree.for_each_near(grown(box_of(segment), gap), [&](int k) {
       const auto j = static_cast<std::size_t>(k);
       const auto& other = second.edges()[j];
@@ -233,11 +246,12 @@ void add_edges(const ContactSurface& first, const ContactSurface& second, const 
   }
 }
 
-// An edge of `own` that passes through a triangle of the other surface.
-std::optional<int> crossing(const ContactSurface& own, const SearchedSurface& other) {
+// An edge of `own` in a region that passes through a triangle of the other surface.
+std::optional<int> crossing(const ContactSurface& own, const SearchedSurface& other, const Bounds& region) {
   std::optional<int> found;
   for (const auto& edge : own.edges()) {
     const Segment segment = placed(edge.nodes, other.x);
+    if (!region.intersects(box_of(segment))) continue;
     other.triangles.for_each_near(box_of(segment), [&](int k) {
       const Corners& nodes = other.surface.triangles()[static_cast<std::size_t>(k)];
       if (found || has(nodes, edge.nodes[0]) || has(nodes, edge.nodes[1])) return;
@@ -260,18 +274,19 @@ std::optional<int> node_below(const ContactSurface& own, const ContactSurface& o
 
 std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   std::vector<NearPlace> out;
-  if (!is_one() && !grown(first_.box(x), gap_).intersects(second_.box(x))) return out;
-  const SearchedSurface second(second_, x);
+  const Bounds region = grown(first_.box(x), gap_).intersection(grown(second_.box(x), gap_));
+  if (region.isEmpty()) return out;
+  const SearchedSurface second(second_, x, region);
   std::optional<SearchedSurface> first;
-  if (!is_one()) first.emplace(first_, x);
-  std::optional<int> crossed = crossing(first_, second);
-  if (!crossed && first) crossed = crossing(second_, *first);
+  if (!is_one()) first.emplace(first_, x, region);
+  std::optional<int> crossed = crossing(first_, second, region);
+  if (!crossed && first) crossed = crossing(second_, *first, region);
   if (!crossed && first) crossed = node_below(first_, second_, x);
   if (!crossed && first) crossed = node_below(second_, first_, x);
   if (crossed) throw RecoverableError(fmt::format("surfaces cross near node {}", *crossed));
-  add_nodes(first_, second, gap_, out);
-  if (first) add_nodes(second_, *first, gap_, out);
-  add_edges(first_, second_, x, gap_, out);
+  add_nodes(first_, second, region, gap_, out);
+  if (first) add_nodes(second_, *first, region, gap_, out);
+  add_edges(first_, second_, x, region, gap_, out);
   for (const NearPlace& place : out)
     if (!(place.distance.r > 0)) throw RecoverableError(fmt::format("surfaces touch at node {}", place.nodes[0]));
   return out;

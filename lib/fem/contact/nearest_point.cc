@@ -66,7 +66,7 @@ bool pierces(const Segment& segment, const Triangle& triangle) {
   const Vec3 x = segment.col(0) + from / (from - to) * (segment.col(1) - segment.col(0));
   for (int k = 0; k < 3; ++k) {
     const Vec3 corner = triangle.col(k), side = triangle.col((k + 1) % 3) - triangle.col(k);
-    if (!(side.cross(x - corner).dot(normal) > 0)) return false;
+    if (!(side.cross(x - corner).dot(normal) >= 0)) return false;
   }
   return true;
 }

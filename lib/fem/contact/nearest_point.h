@@ -22,7 +22,7 @@ struct NearestPlaces {
 using Segment = Eigen::Matrix<double, 3, 2>;  // ends as columns, m
 NearestPlaces nearest_places(const Segment& first, const Segment& second);
 
-// Whether a segment passes through a triangle. Segments in its plane do not.
+// Whether a segment passes through a triangle or its sides. Segments in its plane do not.
 bool pierces(const Segment& segment, const Triangle& triangle);
 
 }  // namespace orthodyn

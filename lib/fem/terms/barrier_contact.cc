@@ -101,7 +101,7 @@ class BarrierContact : public Term {
       add_pair_of_forces(place.distance, place.nodes, force, f);
       if (weight.slope == 0) continue;
       const Vec12 turn = -energy_of(place) * weight.slope * CrossProduct(place.distance.z).gradient;
-      for (int k = 0; k < 4; ++k) f.col(place.nodes[static_cast<std::size_t>(k)]) += turn.segment<3>(3 * k);
+      for (int k = 0; k < 4; ++k) f.col(node(place, k)) += turn.segment<3>(3 * k);
     }
   }
 
@@ -153,10 +153,10 @@ class BarrierContact : public Term {
     return law_.stiffness * std::max(largest_area(first_), second_ ? largest_area(*second_) : 0);
   }
 
-  // States in which surfaces cross are refused: half of a cell is less than a body.
+  // States in which surfaces cross are refused: a node may go half of the way through a body.
   double longest_step(const NodalState& s) const override {
     const ContactSurface& other = second_ ? *second_ : first_;
-    return passing_time(first_, other, (first_.mean_edge() + other.mean_edge()) / 4, s.x, s.v);
+    return passing_time(first_, other, std::min(first_.thickness(), other.thickness()) / 2, s.x, s.v);
   }
 
  private:
@@ -174,12 +174,16 @@ class BarrierContact : public Term {
   }
 
   void require_near(const NearPlace& place) const {
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j)
-        if (const double apart = (rest_.col(place.nodes[i]) - rest_.col(place.nodes[j])).norm(); apart > *law_.slide)
+    const int of_first = place.parallel > 0 ? 2 : 1;  // nodes of the first surface: both of an edge, or one
+    for (int i = 0; i < of_first; ++i)
+      for (int j = of_first; j < 4; ++j) {
+        const double apart = (rest_.col(node(place, i)) - rest_.col(node(place, j))).norm();
+        if (place.has_node(i) && place.has_node(j) && apart > *law_.slide)
           throw RecoverableError(
               fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
+      }
   }
+  static int node(const NearPlace& place, int k) { return place.nodes[static_cast<std::size_t>(k)]; }
 
   static EdgeWeight weight_of(const NearPlace& place) {
     if (place.parallel == 0) return {};
@@ -196,6 +200,8 @@ class BarrierContact : public Term {
     return -weight.value * law_.stiffness * place.area / 2 * law_.gap * barrier_slope(relative(place));
   }
 
+  // Without the second derivatives of the distance and of the weight of edges. Places that are counted too often are
+  // left out, so that it is too stiff in notches.
   Mat12 definite(const NearPlace& place, const EdgeWeight& weight) const {
     if (place.area < 0) return Mat12::Zero();
     const Vec12 slope = place.distance.gradient();
@@ -297,6 +303,12 @@ class BarrierContactChoice : public TermChoice {
                       "type contact",
                       e.what()));
     }
+    constexpr double kTouching = 1e-3;
+    if (least < kTouching * std::min(usual, searched))
+      origin.fail(
+          fmt::format("the surfaces are {:.2g} m apart at rest, next to touching: this contact needs surfaces "
+                      "that are about a gap apart; move one of them, or use the type contact",
+                      least));
     if (!gap_) return std::min(usual, least / 2);
     if (is_of_one() && least < *gap_)
       origin.fail(

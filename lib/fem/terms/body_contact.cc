@@ -111,7 +111,8 @@ class BodyContact : public Term {
   }
 
   double longest_step(const NodalState& s) const override {
-    return passing_time(first_, second_, law_.reach, s.x, s.v);
+    return passing_time(first_, second_, std::min({law_.reach, first_.thickness() / 2, second_.thickness() / 2}), s.x,
+                        s.v);
   }
 
  private:

@@ -107,10 +107,12 @@ class Driver {
       if (!integrator_.has_accurate_interpolation()) limit = std::min(limit, history_.next());
       if (integrator_.adaptive()) limit = std::min(limit, seen_until);
       const double unseen = model_.longest_step(outcome_.last);
+      const double due = limit;
       if (integrator_.adaptive() && std::isfinite(unseen))
         limit = std::min(limit, begin + std::min(unseen, kGrowth * last_step_));
       StepInfo info = integrator_.step(limit);
-      if (info.t < limit || info.h > last_step_ || !std::isfinite(last_step_)) last_step_ = info.h;
+      const bool cut_by_output = info.t >= due && info.h < last_step_ && std::isfinite(last_step_);
+      if (!cut_by_output) last_step_ = info.h;
       if (!outcome_.may_pass_through && info.h > kGrowth * unseen) outcome_.may_pass_through = begin;
       if (!outcome_.stepped_over && info.t > seen_until + kLongStep * (seen_until - begin))
         outcome_.stepped_over = begin;
