@@ -24,6 +24,7 @@ class DerivedModel : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { original_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { original_.solve_mass(x); }
   Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return original_.rigid_motions(q); }
+  double longest_step(const State& state) const override { return original_.longest_step(state); }
 
  protected:
   const Model& original() const { return original_; }

@@ -58,7 +58,8 @@ void LoadStepper::advance() {
     const double slope = std::abs(tracer_->current().tangent.lambda);
     if (slope > 0) step_ = std::min(step_, stepping_.max_step / slope);
     auto next = tracer_->advance_by(step_);
-    if (next && !exceeds_max_step(*next)) {
+    passes_through_ = next && may_pass_through(*next);
+    if (next && !passes_through_ && !exceeds_max_step(*next)) {
       if (!crosses_critical_point(*next)) {
         record_sharp_turn(*next);
         tracer_->move_to(std::move(*next));
@@ -78,6 +79,14 @@ void LoadStepper::advance() {
 // True if the load factor grew more than the tangent predicted, because the path bends upwards.
 bool LoadStepper::exceeds_max_step(const PathState& next) const {
   return std::abs(next.point.lambda - tracer_->current().point.lambda) > 1.5 * stepping_.max_step;
+}
+
+// True if a body may pass through another one on the straight way to `next`: as a motion of one second, this way needs
+// no reserve for velocities that grow.
+bool LoadStepper::may_pass_through(const PathState& next) const {
+  constexpr double kReserve = 0.4;  // in Model::longest_step()
+  const PathPoint& here = tracer_->current().point;
+  return path_.longest_step({path_.times().at(here.lambda), here.q, next.point.q - here.q}) < kReserve;
 }
 
 // Records the point of a sharp turn at which displacements grow fastest.
@@ -284,8 +293,9 @@ void LoadStepper::give_up() const {
                              "(statics.min_step): {}. This does not mean that none exists: reduce statics.min_step or "
                              "the loads, or compute the damped motion to rest (analysis: dynamic)",
                              state_.t, stepping_.min_step,
-                             tracer_->last_attempt().found ? "another path is too close to be distinguished"
-                                                           : tracer_->last_attempt().failure_reason),
+                             passes_through_                 ? "bodies would pass through each other"
+                             : tracer_->last_attempt().found ? "another path is too close to be distinguished"
+                                                             : tracer_->last_attempt().failure_reason),
                  Reason::newton);
 }
 

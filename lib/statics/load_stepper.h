@@ -71,6 +71,7 @@ class LoadStepper {
   bool crosses_critical_point(const PathState& next) const;
   bool turns_back(const PathState& next) const;
   bool exceeds_max_step(const PathState& next) const;
+  bool may_pass_through(const PathState& next) const;
   void pass_critical_point(PathState beyond);
   std::optional<PathState> locate_critical_point(PathState beyond);
   CriticalPoint critical_point_before(const PathState& beyond) const;
@@ -95,11 +96,12 @@ class LoadStepper {
   State state_;
   double step_ = 0, smallest_step_ = 0;  // arc lengths
   std::vector<CriticalPoint> critical_;
-  double steepest_ = 0;      // PathTracer::growth() at the last sharp turn
-  long iterations_ = 0;      // Newton iterations of the last step
-  bool was_halved_ = false;  // the step was halved after the last step
-  bool stops_next_ = false;  // the next step() stops at the last critical point
-  bool jumps_next_ = false;  // the next step() jumps from the last critical point
+  double steepest_ = 0;          // PathTracer::growth() at the last sharp turn
+  long iterations_ = 0;          // Newton iterations of the last step
+  bool passes_through_ = false;  // the last attempt was rejected because bodies may pass through each other
+  bool was_halved_ = false;      // the step was halved after the last step
+  bool stops_next_ = false;      // the next step() stops at the last critical point
+  bool jumps_next_ = false;      // the next step() jumps from the last critical point
   long steps_ = 0, rejected_ = 0, jumps_ = 0;
 };
 

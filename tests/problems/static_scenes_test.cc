@@ -40,6 +40,36 @@ loads: [{surface: x1, traction: [1e5, 0, 0]}]
   }
 }
 
+// A block on soft springs, which a step of the load would push through the body below it. A surface of one cell below a
+// finer one has no nodes in the contact: the stiffness is half of the given one.
+TEST(StaticScene, DoesNotPushABlockThroughABody) {
+  for (const char* law : {"contact, stiffness: 1e9, onset: 1e-7", "barrier_contact, stiffness: 1e10, gap: 1e-4"}) {
+    const BuiltTestScene s(R"(
+mesh:
+  type: bodies
+  bodies:
+    low: {mesh: {type: box, size: [0.3, 0.3, 0.05], cells: [1, 1, 1], elements: hexahedra, order: 1, origin: [-0.15, -0.15, -0.0501]}}
+    up: {mesh: {type: box, size: [0.1, 0.1, 0.05], cells: [4, 4, 1], elements: hexahedra, order: 1, origin: [-0.05, -0.05, 0]}}
+materials: {m: {type: isotropic, density: 500, young: 1e8, nu: 0}}
+clamps: [{region: low}, {surface: up.z1, components: [x, y]}]
+loads: [{surface: up.z1, traction: [0, 0, -1e4]}]
+terms: [{type: spring, surface: up.z1, stiffness: 1e3}, {between: [low.z1, up.z0], type: )" +
+                           std::string(law) + R"(}]
+analysis: static
+)");
+    const NodalVector u = s.nodal(equilibrium(s.scene, s.built));
+    double bottom = 0;
+    for (Eigen::Index i = 0; i < u.cols(); ++i)
+      if (s.model().parts().rest->col(i)[2] == 0) bottom += u(2, i) / 25;
+    if (law[0] == 'c') {
+      EXPECT_NEAR(bottom, -1e-4 - 1e4 / 0.5e9, 5e-6) << law;
+    } else {
+      EXPECT_LT(bottom, 0) << law;
+      EXPECT_GT(bottom, -1e-4) << law;
+    }
+  }
+}
+
 TEST(StaticScene, TakesFactorsOfLoadsAtTheEndOfItsTime) {
   const std::string bar = R"(
 analysis: static
