@@ -3,10 +3,13 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
+#include <unsupported/Eigen/BVH>
 
 namespace orthodyn {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The rigid motion that fits the velocities of nodes best.
 class CommonMotion {
@@ -31,26 +34,84 @@ class CommonMotion {
   Vec3 centre_ = Vec3::Zero(), velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();  // m, m/s, rad/s
 };
 
-}  // namespace
-
-// Two nodes are at least as far apart as each of them is from the box around the other surface. So they pass after the
-// shorter one of the times in which either goes half of this way, in a frame that moves with both bodies.
-double passing_time(const ContactSurface& first, const ContactSurface& second, double depth, const NodalVector& x,
-                    const NodalVector& v) {
-  constexpr double kSafety = 0.4;  // the mean velocity of a step may be 2.5 times that at its start
+CommonMotion common_motion(const ContactSurface& first, const ContactSurface& second, const NodalVector& x,
+                           const NodalVector& v) {
   std::vector<int> nodes;
   for (const ContactSurface* surface : {&first, &second})
     for (const auto& [node, area] : surface->areas()) nodes.push_back(node);
-  const CommonMotion together(nodes, x, v);
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [own, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
-    const Eigen::AlignedBox3d box = other->box(x);
-    for (const auto& [node, area] : own->areas()) {
-      const double speed = (v.col(node) - together.at(x.col(node))).norm();
-      if (speed > 0) least = std::min(least, (box.exteriorDistance(Vec3(x.col(node))) + depth) / (2 * speed));
+  return {nodes, x, v};
+}
+
+// A box in space (m), with the range of speeds of its triangles (m/s) as a fourth dimension.
+using Box = Eigen::AlignedBox<double, 4>;
+using Tree = Eigen::KdBVH<double, 4, int>;
+
+double distance(const Box& a, const Box& b) {
+  const Eigen::Vector4d between = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0);
+  return between.head<3>().norm();
+}
+
+// The triangles of a surface, with velocities beside a common motion.
+struct MovingTriangles {
+  MovingTriangles(const ContactSurface& surface, const CommonMotion& common, const NodalVector& x, const NodalVector& v)
+      : nodes(surface.triangles()) {
+    std::vector<int> numbers(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      numbers[k] = static_cast<int>(k);
+      Box box;
+      double speed = 0;
+      for (const int node : nodes[k]) speed = std::max(speed, (v.col(node) - common.at(x.col(node))).norm());
+      for (const int node : nodes[k]) box.extend((Eigen::Vector4d() << x.col(node), speed).finished());
+      boxes.push_back(box);
     }
+    tree.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
   }
-  return kSafety * least;
+
+  const std::vector<ContactSurface::Corners>& nodes;
+  std::vector<Box> boxes;
+  Tree tree;
+};
+
+// The time in which triangles of two surfaces can be `depth` behind each other, for Eigen's BVMinimize(): the distance
+// of their boxes over the largest relative velocity of their corners. For boxes of many triangles, a lower bound.
+struct PassingTime {
+  using Scalar = double;
+
+  double minimumOnVolumeVolume(const Box& a, const Box& b) const {
+    return (distance(a, b) + depth) / (a.max()[3] + b.max()[3]);
+  }
+  double minimumOnVolumeObject(const Box& a, int b) const {
+    return minimumOnVolumeVolume(a, second.boxes[static_cast<std::size_t>(b)]);
+  }
+  double minimumOnObjectVolume(int a, const Box& b) const {
+    return minimumOnVolumeVolume(first.boxes[static_cast<std::size_t>(a)], b);
+  }
+  double minimumOnObjectObject(int a, int b) const {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    double speed = 0;
+    for (const int m : first.nodes[i])
+      for (const int n : second.nodes[j]) {
+        if (m == n) return kInfinity;
+        speed = std::max(speed, (v.col(m) - v.col(n)).norm());
+      }
+    return (distance(first.boxes[i], second.boxes[j]) + depth) / speed;
+  }
+
+  const MovingTriangles &first, &second;
+  const NodalVector& v;
+  double depth;
+};
+
+}  // namespace
+
+double passing_time(const ContactSurface& first, const ContactSurface& second, double depth, const NodalVector& x,
+                    const NodalVector& v) {
+  constexpr double kSafety = 0.4;  // the mean velocity of a step may be 2.5 times that at its start
+  const CommonMotion common = common_motion(first, second, x, v);
+  const MovingTriangles a(first, common, x, v), b(second, common, x, v);
+  PassingTime time{a, b, v, depth};
+  const double least = Eigen::BVMinimize(a.tree, b.tree, time);
+  return least < std::numeric_limits<double>::max() ? kSafety * least : kInfinity;
 }
 
 }  // namespace orthodyn
