@@ -8,7 +8,8 @@ std::unique_ptr<Integrator> IntegratorChoice::make(const Model& model, const Tas
   if (model.constraints()) {
     if (!solves_constraints())
       throw ConfigError(
-          "this method is not available with joints, whose motion is a system with constraints; use ida_bdf, "
+          "this method is not available with joints or free rigid bodies, whose motion is a system with constraints; "
+          "use ida_bdf, "
           "cvode_bdf, generalized_alpha, hht_alpha, newmark, central_differences or auto");
     if (task.sensitivities)
       throw ConfigError("sensitivities of motions are not available with joints; remove one of them");

@@ -91,7 +91,9 @@ const Spec<Scene>& Scene::spec() {
           .key("terms", &Scene::terms, "Further terms by type; docs/extend.md explains how to add your own.")
           .key("clamps", &Scene::clamps, "Fixed nodes.")
           .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
-          .key("joints", &Scene::joints, "Connections of bodies by points that coincide or keep their distance.",
+          .key("joints", &Scene::joints,
+               "Connections of bodies: ball joints, hinges, sliders and rods, with springs, stops, friction, loads and "
+               "motors.",
                {.with = kDynamic})
           .key("ties", &Scene::ties, "Surfaces of bodies that are glued together; their meshes need not match.")
           .key("start", &Scene::start,

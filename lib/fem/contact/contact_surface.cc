@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "lib/fem/surface.h"
 #include "lib/mesh/mesh_faces.h"
@@ -54,12 +55,26 @@ double least_height(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
   return least;
 }
 
+Triangle at_rest(const Mesh& mesh, const ContactSurface::Corners& nodes) {
+  Triangle out;
+  out << mesh.node(nodes[0]), mesh.node(nodes[1]), mesh.node(nodes[2]);
+  return out;
+}
+
+// ContactSurface::Edge::sharpness of the edge of two triangles.
+double sharpness_between(const Triangle& a, const Triangle& b) {
+  constexpr double kSharp = std::numbers::pi / 6;
+  const Vec3 n = area_vector(a).normalized(), m = area_vector(b).normalized();
+  const bool is_notch = n.dot(b.rowwise().mean() - a.rowwise().mean()) > 0;
+  return is_notch ? 0 : std::pow(std::min(1.0, std::atan2(n.cross(m).norm(), n.dot(m)) / kSharp), 2);
+}
+
 }  // namespace
 
 ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces)
     : areas_(node_areas(mesh, faces)), thickness_(least_height(mesh, faces)) {
   const Cells cells = face_cells(mesh, faces);
-  std::map<std::pair<int, int>, int> uses;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> uses;  // triangles of an edge
   double sum = 0;
   for (std::size_t k = 0; k < cells.size(); ++k)
     for (const auto& corners : triangles_of(cells.shape(k))) {
@@ -68,16 +83,18 @@ ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>&
       triangles_.push_back(nodes);
       for (std::size_t c = 0; c < 3; ++c) {
         const int a = nodes[c], b = nodes[(c + 1) % 3];
-        ++uses[{std::min(a, b), std::max(a, b)}];
+        uses[{std::min(a, b), std::max(a, b)}].push_back(triangles_.size() - 1);
         sum += (mesh.node(a) - mesh.node(b)).norm();
       }
     }
   mean_edge_ = sum / (3 * static_cast<double>(triangles_.size()));
   const std::map<int, double> area_of(areas_.begin(), areas_.end());
-  for (const auto& [edge, count] : uses) {
+  for (const auto& [edge, of] : uses) {
     const auto& [a, b] = edge;
-    edges_.push_back({{a, b}, (area_of.at(a) + area_of.at(b)) / 2, (mesh.node(a) - mesh.node(b)).norm()});
-    if (count == 1) {
+    const double sharpness =
+        of.size() == 2 ? sharpness_between(at_rest(mesh, triangles_[of[0]]), at_rest(mesh, triangles_[of[1]])) : 1;
+    edges_.push_back({{a, b}, (area_of.at(a) + area_of.at(b)) / 2, (mesh.node(a) - mesh.node(b)).norm(), sharpness});
+    if (of.size() == 1) {
       boundary_edges_.insert(edge);
       boundary_nodes_.insert(edge.first);
       boundary_nodes_.insert(edge.second);

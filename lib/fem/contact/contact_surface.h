@@ -22,6 +22,7 @@ class ContactSurface {
     std::array<int, 2> nodes;  // ascending
     double area;               // mean of its nodes, m^2
     double length;             // at rest, m
+    double sharpness;          // at rest, from 0 between triangles of one plane or in a notch to 1 at 30 degrees
   };
 
   ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces);

@@ -215,7 +215,8 @@ bool share_a_node(const std::array<int, 2>& a, const std::array<int, 2>& b) {
 // The places of pairs of edges in a region.
 void add_edges(const ContactSurface& first, const ContactSurface& second, const NodalVector& x, const Bounds& region,
                double gap, std::vector<NearPlace>& out) {
-  constexpr double kShare = 0.1;      // of the areas of edges, beside those of nodes
+  constexpr double kShare = 0.1;      // of the areas of sharp edges, beside those of nodes
+  constexpr double kLeast = 1e-3;     // of this share, for edges in plane surfaces: they matter where these are bent
   constexpr double kParallel = 1e-3;  // squared sine of the angle below which edges count less
   constexpr double kNone = 1e-20;
   std::vector<Bounds> boxes;
@@ -240,7 +241,7 @@ void add_edges(const ContactSurface& first, const ContactSurface& second, const 
       if (along.cross(across).squaredNorm() < kNone * lengths) return;
       out.push_back({{own.nodes[0], own.nodes[1], other.nodes[0], other.nodes[1]},
                      distance,
-                     kShare * (own.area + other.area) / 2,
+                     kShare * std::max(own.sharpness * other.sharpness, kLeast) * (own.area + other.area) / 2,
                      kParallel * lengths});
     });
   }

@@ -1,7 +1,7 @@
 // Contact of two surfaces, or of a surface with itself, by a barrier: surfaces that never cross. A node at the distance
 // r < g from the other surface has the energy k A g^2 B(r/g)/2, with its area A, the stiffness k (Pa/m), the gap g and
-// the barrier B; two edges have one, too, that fades where they become parallel. Both surfaces are treated alike, so
-// that at the distance r the pressure is -k g B'(r/g). Forces are -grad of the energy: they have no resultant and no
+// the barrier B; two sharp edges have one, too, that fades where they become parallel. Both surfaces are treated alike,
+// so that at the distance r the pressure is -k g B'(r/g). Forces are -grad of the energy: they have no resultant and no
 // torque. States in which surfaces cross have no force, so that integrators shorten their steps.
 // Source: Li et al. (2020), Incremental Potential Contact, ACM Trans. Graph. 39.
 #include <fmt/format.h>
@@ -61,6 +61,17 @@ struct CrossProduct {
   }
 };
 
+// The largest distance at rest (m) of nodes of both surfaces that a place couples.
+double farthest_apart(const NearPlace& place, const NodalVector& rest) {
+  const std::size_t of_first = place.parallel > 0 ? 2 : 1;  // both ends of an edge, or a node
+  double apart = 0;
+  for (std::size_t i = 0; i < of_first; ++i)
+    for (std::size_t j = of_first; j < 4; ++j)
+      if (place.has_node(static_cast<int>(i)) && place.has_node(static_cast<int>(j)))
+        apart = std::max(apart, (rest.col(place.nodes[i]) - rest.col(place.nodes[j])).norm());
+  return apart;
+}
+
 struct BarrierLaw {
   double stiffness = 0;  // Pa/m
   double gap = 0;        // m
@@ -101,7 +112,7 @@ class BarrierContact : public Term {
       add_pair_of_forces(place.distance, place.nodes, force, f);
       if (weight.slope == 0) continue;
       const Vec12 turn = -energy_of(place) * weight.slope * CrossProduct(place.distance.z).gradient;
-      for (int k = 0; k < 4; ++k) f.col(node(place, k)) += turn.segment<3>(3 * k);
+      for (int k = 0; k < 4; ++k) f.col(place.nodes[static_cast<std::size_t>(k)]) += turn.segment<3>(3 * k);
     }
   }
 
@@ -167,23 +178,27 @@ class BarrierContact : public Term {
   }
 
   std::vector<NearPlace> places(const NodalVector& x) const {
-    std::vector<NearPlace> out = near_.at(x);
+    constexpr double kLeast = 1e-8;
+    std::vector<NearPlace> out;
+    try {
+      out = near_.at(x);
+    } catch (const RecoverableError& e) {
+      throw RecoverableError(fmt::format("{}: {}", name_, e.what()));
+    }
+    for (const NearPlace& place : out)
+      if (relative(place) < kLeast)
+        throw RecoverableError(fmt::format(
+            "{}: surfaces are pressed together to {:.1g} of the gap: raise `stiffness` or `gap`", name_, kLeast));
     if (law_.slide)
       for (const NearPlace& place : out) require_near(place);
     return out;
   }
 
   void require_near(const NearPlace& place) const {
-    const int of_first = place.parallel > 0 ? 2 : 1;  // nodes of the first surface: both of an edge, or one
-    for (int i = 0; i < of_first; ++i)
-      for (int j = of_first; j < 4; ++j) {
-        const double apart = (rest_.col(node(place, i)) - rest_.col(node(place, j))).norm();
-        if (place.has_node(i) && place.has_node(j) && apart > *law_.slide)
-          throw RecoverableError(
-              fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
-      }
+    if (const double apart = farthest_apart(place, rest_); apart > *law_.slide)
+      throw RecoverableError(
+          fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
   }
-  static int node(const NearPlace& place, int k) { return place.nodes[static_cast<std::size_t>(k)]; }
 
   static EdgeWeight weight_of(const NearPlace& place) {
     if (place.parallel == 0) return {};
@@ -243,11 +258,13 @@ class BarrierContactChoice : public TermChoice {
                  "its whole outer surface.",
                  {.required = true})
             .key("stiffness", &C::stiffness_,
-                 "Pressure per distance: at half of the gap, the pressure is 1.2 times the stiffness times the gap. It "
-                 "grows without limit where surfaces get nearer.",
+                 "Pressure per distance: at half of the gap, the pressure is twice the stiffness times the gap. It "
+                 "grows "
+                 "without limit where surfaces get nearer.",
                  {.required = true, .unit = "Pa/m", .range = kPositive})
             .key("gap", &C::gap_,
-                 "Distance at which contact sets in; default a twentieth of the mean cell edge, or half of the least "
+                 "Distance at which contact sets in; default a twentieth of the mean cell edge, at most half of the "
+                 "least "
                  "distance at rest.",
                  {.unit = "m", .range = kPositive})
             .key("slide", &C::slide_,
@@ -295,8 +312,10 @@ class BarrierContactChoice : public TermChoice {
     const double searched = gap_.value_or(2 * usual);
     double least = std::numeric_limits<double>::infinity();
     try {
-      for (const NearPlace& place : NearFeatures(first, second, searched).at(rest))
+      for (const NearPlace& place : NearFeatures(first, second, searched).at(rest)) {
         least = std::min(least, place.distance.r);
+        require_slide(place, rest);
+      }
     } catch (const RecoverableError& e) {
       origin.fail(
           fmt::format("{} at rest: this contact needs surfaces that are apart; move one of them, or use the "
@@ -316,6 +335,11 @@ class BarrierContactChoice : public TermChoice {
                       "smaller gap",
                       between_[0], least, *gap_));
     return *gap_;
+  }
+
+  void require_slide(const NearPlace& place, const NodalVector& rest) const {
+    if (const double apart = farthest_apart(place, rest); slide_ && apart > *slide_)
+      origin.fail(fmt::format("nodes that are {:.3g} m apart are near each other at rest: raise `slide`", apart));
   }
 
   std::array<std::string, 2> between_;

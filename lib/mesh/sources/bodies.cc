@@ -87,8 +87,8 @@ class Bodies : public MeshSource {
   Named<Body> bodies_;
 };
 
-const bool bodies_registered =
-    Registry<MeshSource>::add<Bodies>("bodies", "Several meshes, each at its place; joints connect them.");
+const bool bodies_registered = Registry<MeshSource>::add<Bodies>(
+    "bodies", "Several meshes, each at its place; ties, contact, springs and joints connect them.");
 
 }  // namespace
 }  // namespace orthodyn
