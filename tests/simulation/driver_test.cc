@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/ode/derived_model.h"
 #include "lib/scene/build.h"
 #include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/checkpoint/checkpointer.h"
@@ -134,6 +135,50 @@ TEST(Driver, TakesTimesThatDifferByRoundOffForOne) {
     const auto outcome = swing.run_with({0, by_interval(0, 0.5, 0.1), true}, {&seen});
     EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
     EXPECT_EQ(seen.outputs.size(), 6u);
+  }
+}
+
+// A model that allows steps of 1e-4 s up to the time 0.02 s, and any steps afterwards.
+class ShortSteps : public DerivedModel {
+ public:
+  static constexpr double kLongest = 1e-4, kUntil = 0.02;
+  explicit ShortSteps(const Model& original) : DerivedModel(original) {}
+  const Traits& traits() const override { return original().traits(); }
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
+    original().force(t, q, v, f);
+  }
+  double longest_step(const State& state) const override {
+    return state.t < kUntil ? kLongest : std::numeric_limits<double>::infinity();
+  }
+  std::vector<OutputInfo> outputs() const override { return original().outputs(); }
+  std::unique_ptr<StateView> view(const State& state) const override { return original().view(state); }
+  Geometry geometry() const override { return original().geometry(); }
+
+ private:
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override {
+    original().linearize(t, q, v, kind, out);
+  }
+};
+
+TEST(Driver, TakesNoStepThatMayMissAContact) {
+  for (const char* type : {"cvode_bdf", "ida_bdf", "sdirk"}) {
+    Case swing(std::string(kSwing).replace(std::string(kSwing).find("cvode_bdf"), 9, type));
+    const ShortSteps model(*swing.built.model);
+    Recorder seen;
+    Plan plan;
+    plan.end = swing.scene.time.end;
+    const Outcome outcome = run(model, *swing.integrator, swing.built.initial, plan, {&seen}, swing.never);
+    ASSERT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+    double before = 0, longest = 0, longest_after = 0;
+    for (const double t : seen.steps) {
+      double& largest = before < ShortSteps::kUntil ? longest : longest_after;
+      largest = std::max(largest, t - before);
+      before = t;
+    }
+    EXPECT_LE(longest, ShortSteps::kLongest * (1 + 1e-9)) << type;
+    EXPECT_GT(longest_after, 3 * ShortSteps::kLongest) << type;  // steps grow again
+    EXPECT_FALSE(outcome.may_pass_through) << type;
   }
 }
 
