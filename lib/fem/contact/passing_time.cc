@@ -34,12 +34,16 @@ class CommonMotion {
   Vec3 centre_ = Vec3::Zero(), velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();  // m, m/s, rad/s
 };
 
-CommonMotion common_motion(const ContactSurface& first, const ContactSurface& second, const NodalVector& x,
-                           const NodalVector& v) {
+// The velocities of the nodes of two surfaces beside their common motion; those of other nodes are 0.
+NodalVector beside_common_motion(const ContactSurface& first, const ContactSurface& second, const NodalVector& x,
+                                 const NodalVector& v) {
   std::vector<int> nodes;
   for (const ContactSurface* surface : {&first, &second})
     for (const auto& [node, area] : surface->areas()) nodes.push_back(node);
-  return {nodes, x, v};
+  const CommonMotion common(nodes, x, v);
+  NodalVector w = NodalVector::Zero(3, v.cols());
+  for (const int node : nodes) w.col(node) = v.col(node) - common.at(x.col(node));
+  return w;
 }
 
 // A box in space (m), with the range of speeds of its triangles (m/s) as a fourth dimension.
@@ -51,16 +55,16 @@ double distance(const Box& a, const Box& b) {
   return between.head<3>().norm();
 }
 
-// The triangles of a surface, with velocities beside a common motion.
+// The triangles of a surface, with the velocities w of its nodes beside a common motion.
 struct MovingTriangles {
-  MovingTriangles(const ContactSurface& surface, const CommonMotion& common, const NodalVector& x, const NodalVector& v)
+  MovingTriangles(const ContactSurface& surface, const NodalVector& x, const NodalVector& w)
       : nodes(surface.triangles()) {
     std::vector<int> numbers(nodes.size());
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       numbers[k] = static_cast<int>(k);
-      Box box;
       double speed = 0;
-      for (const int node : nodes[k]) speed = std::max(speed, (v.col(node) - common.at(x.col(node))).norm());
+      for (const int node : nodes[k]) speed = std::max(speed, w.col(node).norm());
+      Box box;
       for (const int node : nodes[k]) box.extend((Eigen::Vector4d() << x.col(node), speed).finished());
       boxes.push_back(box);
     }
@@ -92,13 +96,13 @@ struct PassingTime {
     for (const int m : first.nodes[i])
       for (const int n : second.nodes[j]) {
         if (m == n) return kInfinity;
-        speed = std::max(speed, (v.col(m) - v.col(n)).norm());
+        speed = std::max(speed, (w.col(m) - w.col(n)).norm());
       }
     return (distance(first.boxes[i], second.boxes[j]) + depth) / speed;
   }
 
   const MovingTriangles &first, &second;
-  const NodalVector& v;
+  const NodalVector& w;  // m/s
   double depth;
 };
 
@@ -107,9 +111,9 @@ struct PassingTime {
 double passing_time(const ContactSurface& first, const ContactSurface& second, double depth, const NodalVector& x,
                     const NodalVector& v) {
   constexpr double kSafety = 0.4;  // the mean velocity of a step may be 2.5 times that at its start
-  const CommonMotion common = common_motion(first, second, x, v);
-  const MovingTriangles a(first, common, x, v), b(second, common, x, v);
-  PassingTime time{a, b, v, depth};
+  const NodalVector w = beside_common_motion(first, second, x, v);
+  const MovingTriangles a(first, x, w), b(second, x, w);
+  PassingTime time{a, b, w, depth};
   const double least = Eigen::BVMinimize(a.tree, b.tree, time);
   return least < std::numeric_limits<double>::max() ? kSafety * least : kInfinity;
 }
