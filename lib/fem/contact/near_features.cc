@@ -265,26 +265,32 @@ std::optional<int> crossing(const ContactSurface& own, const SearchedSurface& ot
 
 // A node of `own` that is less than half a cell below the other surface.
 std::optional<int> node_below(const ContactSurface& own, const ContactSurface& other, const NodalVector& x) {
-  const PlacedSurface placed(other, x, other.mean_edge() / 2);
+  const double reach = other.mean_edge() / 2;
+  if (!grown(other.box(x), reach).intersects(own.box(x))) return std::nullopt;
+  const PlacedSurface placed(other, x, reach);
   for (const auto& [node, area] : own.areas())
     if (placed.touch_of(node, PlacedSurface::AtBoundary::left_out)) return node;
   return std::nullopt;
 }
 
+RecoverableError crossing_error(int node) { return RecoverableError(fmt::format("surfaces cross near node {}", node)); }
+
 }  // namespace
 
 std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   std::vector<NearPlace> out;
+  std::optional<int> crossed;
+  if (!is_one()) crossed = node_below(first_, second_, x);
+  if (!is_one() && !crossed) crossed = node_below(second_, first_, x);
+  if (crossed) throw crossing_error(*crossed);
   const Bounds region = grown(first_.box(x), gap_).intersection(grown(second_.box(x), gap_));
   if (region.isEmpty()) return out;
   const SearchedSurface second(second_, x, region);
   std::optional<SearchedSurface> first;
   if (!is_one()) first.emplace(first_, x, region);
-  std::optional<int> crossed = crossing(first_, second, region);
+  crossed = crossing(first_, second, region);
   if (!crossed && first) crossed = crossing(second_, *first, region);
-  if (!crossed && first) crossed = node_below(first_, second_, x);
-  if (!crossed && first) crossed = node_below(second_, first_, x);
-  if (crossed) throw RecoverableError(fmt::format("surfaces cross near node {}", *crossed));
+  if (crossed) throw crossing_error(*crossed);
   add_nodes(first_, second, region, gap_, out);
   if (first) add_nodes(second_, *first, region, gap_, out);
   add_edges(first_, second_, x, region, gap_, out);
