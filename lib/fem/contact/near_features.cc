@@ -273,7 +273,9 @@ std::optional<int> node_below(const ContactSurface& own, const ContactSurface& o
   return std::nullopt;
 }
 
-RecoverableError crossing_error(int node) { return RecoverableError(fmt::format("surfaces cross near node {}", node)); }
+RecoverableError crossing_error(int node) {
+  return RecoverableError(fmt::format("surfaces touch or cross near node {}", node));
+}
 
 }  // namespace
 

@@ -318,9 +318,9 @@ class BarrierContactChoice : public TermChoice {
       }
     } catch (const RecoverableError& e) {
       origin.fail(
-          fmt::format("{} at rest: this contact needs surfaces that are apart; move one of them, or use the "
-                      "type contact",
-                      e.what()));
+          fmt::format("{} at rest: this contact needs surfaces that are about a gap apart, {:.3g} m here; move one of "
+                      "them, or use the type contact",
+                      e.what(), gap_.value_or(usual)));
     }
     constexpr double kTouching = 1e-3;
     if (least < kTouching * std::min(usual, searched))
@@ -330,10 +330,10 @@ class BarrierContactChoice : public TermChoice {
                       least));
     if (!gap_) return std::min(usual, least / 2);
     if (is_of_one() && least < *gap_)
-      origin.fail(
-          fmt::format("parts of '{}' are {:.3g} m apart at rest, less than the gap of {:.3g} m; choose a "
-                      "smaller gap",
-                      between_[0], least, *gap_));
+      origin.fail(fmt::format(
+          "parts of '{}' are {:.3g} m apart at rest (the thickness of a sheet counts), less than the gap of {:.3g} "
+          "m; choose a smaller gap",
+          between_[0], least, *gap_));
     return *gap_;
   }
 
