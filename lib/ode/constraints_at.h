@@ -1,5 +1,5 @@
-// The constraints of a model (constraints.h) at given positions, and the directions X G^T in which their forces move
-// it. X is the inverse of a matrix A: of the mass matrix, or of that of an implicit scheme. With S = G A^-1 G^T,
+// The constraints of a model (constraints.h) at given positions, and the directions A^-1 G^T in which their forces move
+// the model. A is the mass matrix, or the matrix of an implicit scheme. With S = G A^-1 G^T,
 //
 //     A x + G^T lambda = b,   G x = c:      S lambda = G x0 - c,   x = x0 - A^-1 G^T lambda,   x0 = A^-1 b.
 //

@@ -223,7 +223,7 @@ std::vector<Joint> joints_of(const Scene& scene, const Mesh& mesh, const std::ve
   return joints;
 }
 
-// The joints of the scene come first in `joints` here and in Parts::joints below; those of rigid bodies follow.
+// `joints` and Parts::joints have the joints of the scene first, in its order; the constraints of rigid bodies follow.
 void add_joint_couplings(const Scene& scene, const std::vector<Joint>& joints, NodePairs& pairs) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (!scene.joints[k].has_forces()) continue;

@@ -84,7 +84,7 @@ struct JointInput {
   bool turns() const { return type == JointType::hinge; }
   bool slides() const { return type == JointType::slot || type == JointType::cylindrical || type == JointType::slider; }
   JointLaw law() const;
-  // Whether the joint has forces along its coordinate, apart from those of a motor.
+  // Whether a spring, stop, friction or load acts along the coordinate. A motor is a constraint and does not count.
   bool has_forces() const { return load || law().acts(); }
   void declare(Traits& traits) const;
 

@@ -21,7 +21,7 @@ struct GivenInertia {
 
 struct RigidInput {
   bool is_rigid = false;
-  std::optional<RigidInertia> inertia = {};  // empty: that of the mesh
+  std::optional<RigidInertia> inertia = {};  // empty: computed from the mesh and the density
 };
 
 template <>

@@ -215,8 +215,8 @@ TEST(NearFeatures, SeeBothSidesOfANotch) {
   EXPECT_EQ(count({0.5, 0.3, 0.29}), 1);
 }
 
-// Blocks whose meshes differ: the sum of the pressure on the upper block is that of the closed form on the areas of the
-// nodes, plus the share of crossing edges.
+// The force on a small block above one face of a large one: the pressure of the closed form at the distance 0.6 gap, on
+// half of the area, because the large block has no node below the small one.
 TEST(BarrierContact, PressureIsThatOfTheDistance) {
   const BuiltTestScene s(R"(
 mesh:
@@ -233,7 +233,8 @@ time: {end: 1}
   const ContactSurface upper(s.mesh(), s.mesh().surfaces.at("upper.z0"));
   double own = 0;
   for (const auto& [node, of_node] : upper.areas()) own += f(2, node);
-  EXPECT_NEAR(own, 0.04 * 2000 * 0.05 * -barrier_slope(0.6) / 2, 1e-12);  // no edge of the upper block meets another
+  const double slope = 1 / (0.6 * 0.6) - 3 + 2 * 0.6;       // -B'(0.6) of B(s) = 1/s - 3 + 3 s - s^2
+  EXPECT_NEAR(own, 0.04 * 2000 * 0.05 * slope / 2, 1e-12);  // no edge of the upper block meets another
 }
 
 TEST(BarrierContact, RefusesStatesInWhichSurfacesCross) {

@@ -46,8 +46,8 @@ TEST(RigidBodies, HaveTwelveUnknownsAndSixConstraints) {
   EXPECT_EQ(s.model().constraints()->name(0), "rigid body box, distance");
 }
 
-// In a rigid motion, the kinetic energy equals that of a solid box with the exact inertia, also for thin boxes, and all
-// nodes have the velocity of the motion.
+// A rigid box that translates and spins has the kinetic energy of the exact moments of inertia, also if it is thin. All
+// of its nodes have the velocity of this motion.
 TEST(RigidBodies, HaveTheExactInertia) {
   for (const Vec3& size : {Vec3(1, 0.4, 0.2), Vec3(1, 1, 0.01), Vec3(1, 0.02, 0.01)}) {
     const BuiltTestScene s(box_and_block("", fmt::format("[{}, {}, {}]", size[0], size[1], size[2])));
@@ -119,7 +119,8 @@ std::string half(double x) {
       zz);
 }
 
-// Given and computed inertia agree, and those of the regions of one body add up.
+// A body with the given inertia of its mesh has the mass matrix of a body that computes it from the mesh. The given
+// inertias of two regions of one body add up.
 TEST(GivenInertia, MayBeThatOfTheMesh) {
   const std::string by_mesh = "{material: m, rigid: true}";
   const BuiltTestScene mesh(rigid_box("{all: " + by_mesh + "}"));

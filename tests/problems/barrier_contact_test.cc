@@ -116,8 +116,8 @@ integrator: {type: newmark, step: 1e-3}
   EXPECT_LE(*outcome.may_pass_through, 5e-3);  // the bodies are 0.1 m apart
 }
 
-// A ring under an outer pressure of 2.8 times that of buckling, 3 EI/R^3, collapses; its opposite sides touch at 1.75
-// times this pressure (Flaherty, Keller & Rubinow 1972), and the barrier keeps them apart.
+// A ring buckles under the outer pressure p = 3 EI/R^3. Its opposite sides touch at 1.75 p (Flaherty, Keller & Rubinow
+// 1972). Here the pressure is 2.8 p, and the barrier keeps the sides apart.
 TEST(BarrierContact, KeepsACollapsedRingFromCrossingItself) {
   const BuiltTestScene s(R"(
 mesh: {type: tube, radius: 0.05, inner_radius: 0.046, length: 0.01, cells: [32, 1, 1], order: 2}

@@ -1,11 +1,10 @@
 // The places at which two surfaces, or parts of one surface, are closer than a gap, and whether surfaces cross.
 //
-// The distances of a node from all triangles within the gap are counted once, those from edges and corners shared by n
-// triangles as often as makes the sum 1 where one point of the surface is nearest: beside a plane or convex surface, a
-// node sees its nearest point alone; in a notch it sees both sides. So sums over all places have continuous forces.
+// A node counts its distance from each triangle within the gap once. Triangles that share an edge or a corner repeat
+// the distance from it, and these repetitions are subtracted. Beside a plane or convex surface, one distance is left,
+// that from the nearest point; in a notch, both sides are left. The forces of sums over all places are continuous.
 // Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman (2023), Convergent Incremental Potential
-// Contact, arXiv 2307.15908. Pairs of edges are each counted once: sharp edges with a tenth
-// of the area of nodes, which is small beside them.
+// Contact, arXiv 2307.15908. Each pair of edges counts once, sharp edges with a tenth of the area of their nodes.
 #pragma once
 
 #include <array>

@@ -113,7 +113,7 @@ class Driver {
       StepInfo info = integrator_.step(limit);
       const bool cut_by_output = info.t >= due && info.h < last_step_ && std::isfinite(last_step_);
       if (!cut_by_output) last_step_ = info.h;
-      if (!outcome_.may_pass_through && info.h > kGrowth * unseen) outcome_.may_pass_through = begin;
+      if (!outcome_.may_pass_through && info.h > kMissed * unseen) outcome_.may_pass_through = begin;
       if (!outcome_.stepped_over && info.t > seen_until + kLongStep * (seen_until - begin))
         outcome_.stepped_over = begin;
       outcome_.between_steps = false;
@@ -196,6 +196,7 @@ class Driver {
   // At the end of a step, libraries shorten the next one to the rest of the way to this limit: by four, steps may grow
   // to three times the last one. A body under a constant force is then at most four times as fast after a step.
   static constexpr double kGrowth = 4;
+  static constexpr double kMissed = 4;  // fixed steps that are longer than Model::longest_step() by this are told
 
   double last_step_ = std::numeric_limits<double>::infinity();  // s
   double tiny_;  // outputs closer than this to a stop are moved to the stop, s
