@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/errors.h"
 #include "lib/core/golden_ratio_sample.h"
@@ -84,10 +85,12 @@ double size_of_motion(const VectorSpace& space, const State& initial, const Stat
 
 constexpr double kLeastShare = 1e-6;  // smallest position scale relative to the extent, well above round-off
 
-double contact_stiffness(const FemModel& model) {
-  double largest = 0;
-  for (const auto& term : model.parts().loads) largest = std::max(largest, term->contact_stiffness());
-  return model.space().largest(largest);
+// The least Contact::range() of all contacts, m; infinite without contact.
+double contact_range(const FemModel& model, double energy) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& term : model.parts().loads)
+    if (const Contact* contact = term->contact()) least = std::min(least, contact->range(energy));
+  return 1 / model.space().largest(1 / least);
 }
 
 }  // namespace
@@ -111,8 +114,8 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
     scales.omega = 2.0 / 3 * scales.velocity / size;
     scales.position = size;
   }
-  if (const double k = contact_stiffness(model); k > 0 && energy + work > 0)
-    scales.position = std::min(scales.position, std::max(std::sqrt(2 * (energy + work) / k), kLeastShare * extent));
+  if (energy + work > 0)
+    scales.position = std::min(scales.position, std::max(contact_range(model, energy + work), kLeastShare * extent));
   if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);
   return scales;
 }

@@ -297,9 +297,9 @@ double FemModel::longest_step(const State& state) const {
   double longest = std::numeric_limits<double>::infinity();
   std::optional<NodalExpansion> nodal;
   for (const auto& term : parts_.loads) {
-    if (!(term->contact_stiffness() > 0)) continue;
+    if (!term->contact()) continue;
     if (!nodal) nodal.emplace(parts_, state.t, state.q, state.v);
-    longest = std::min(longest, term->longest_step(nodal->state()));
+    longest = std::min(longest, term->contact()->longest_step(nodal->state()));
   }
   return longest;
 }

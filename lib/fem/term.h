@@ -1,12 +1,12 @@
 // A contribution to the force f in M u'' = f. Each physical effect has its own file.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "lib/core/types.h"
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/dof_map.h"
 #include "lib/fem/subdomain.h"
 #include "lib/ode/internal_variables.h"
@@ -79,8 +79,7 @@ class Term {
   // ElasticTerm::max_frequency_squared().
   virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
 
-  // Contact stiffness of the stiffest node, N/m; 0 for terms without contact.
-  virtual double contact_stiffness() const { return 0; }
+  virtual const Contact* contact() const { return nullptr; }  // null for terms without contact
 
   virtual EnergyKind energy_kind() const { return EnergyKind::none; }
   virtual double energy(const NodalState&) const { return 0; }       // J
@@ -89,9 +88,6 @@ class Term {
 
   virtual std::vector<double> breakpoints(double /*start*/, double /*end*/) const { return {}; }
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
-
-  // Model::longest_step() of this term.
-  virtual double longest_step(const NodalState&) const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace orthodyn

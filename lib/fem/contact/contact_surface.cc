@@ -72,7 +72,9 @@ double sharpness_between(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces)
-    : areas_(node_areas(mesh, faces)), thickness_(least_height(mesh, faces)) {
+    : areas_(node_areas(mesh, faces)),
+      thickness_(least_height(mesh, faces)),
+      has_faces_of_eight_nodes_(has_eight_nodes(mesh, faces)) {
   const Cells cells = face_cells(mesh, faces);
   std::map<std::pair<int, int>, std::vector<std::size_t>> uses;  // triangles of an edge
   double sum = 0;

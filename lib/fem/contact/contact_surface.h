@@ -32,6 +32,8 @@ class ContactSurface {
   const std::vector<Edge>& edges() const { return edges_; }  // of all triangles
   double mean_edge() const { return mean_edge_; }            // of the triangles at rest, m
 
+  bool has_faces_of_eight_nodes() const { return has_faces_of_eight_nodes_; }
+
   double thickness() const { return thickness_; }  // the least height of a cell at the surface, at rest, m
 
   // Whether the point with these barycentric coordinates lies on the boundary of the surface.
@@ -49,6 +51,7 @@ class ContactSurface {
   std::set<std::pair<int, int>> boundary_edges_;  // node pairs, ascending
   std::set<int> boundary_nodes_;
   double mean_edge_ = 0, thickness_ = 0;
+  bool has_faces_of_eight_nodes_ = false;
 };
 
 // A node below a surface: its nearest point has a depth. `distance.n` points into the body, from the surface to the

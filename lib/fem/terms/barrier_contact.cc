@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -17,6 +18,7 @@
 #include "lib/fem/contact/near_features.h"
 #include "lib/fem/contact/node_blocks.h"
 #include "lib/fem/contact/passing_time.h"
+#include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 
 namespace orthodyn {
@@ -40,7 +42,7 @@ struct BarrierLaw {
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
 };
 
-class BarrierContact : public Term {
+class BarrierContact : public Term, public Contact {
  public:
   // `second` is empty for contact of a surface with itself. The pattern must outlive the term.
   BarrierContact(std::string name, const BarrierLaw& law, ContactSurface first, std::optional<ContactSurface> second,
@@ -118,11 +120,25 @@ class BarrierContact : public Term {
     const double k = law_.stiffness * barrier_curvature(0.5);
     const ContactSurface& second = second_ ? *second_ : first_;
     for (const auto& [own, other] : {std::pair(&first_, &second), std::pair(&second, &first_)})
-      for (const auto& [node, area] : own->areas()) row_sums[node] += k * (7 * area + largest_area(*other));
+      for (const auto& [node, area] : own->areas()) row_sums[node] += k * (7 * area + largest_area(other->areas()));
   }
 
-  double contact_stiffness() const override {
-    return law_.stiffness * std::max(largest_area(first_), second_ ? largest_area(*second_) : 0);
+  const Contact* contact() const override { return this; }
+
+  // The gap; for energies E below e = k A gap^2/2, the part (E/e)^(1/3) of it.
+  double range(double energy) const override {
+    const double area = std::max(largest_area(first_.areas()), second_ ? largest_area(second_->areas()) : 0);
+    return law_.gap * std::min(1.0, std::cbrt(energy / (law_.stiffness * area * law_.gap * law_.gap / 2)));
+  }
+
+  double pressed_depth(const NodalState& s) const override {
+    double least = 1;
+    for (const NearPlace& place : places(s.x)) least = std::min(least, relative(place));
+    return -law_.gap * barrier_slope(least);
+  }
+
+  bool has_faces_of_eight_nodes() const override {
+    return first_.has_faces_of_eight_nodes() || (second_ && second_->has_faces_of_eight_nodes());
   }
 
   // States in which surfaces cross are refused: a node may go half of the way through a body.
@@ -132,12 +148,6 @@ class BarrierContact : public Term {
   }
 
  private:
-  static double largest_area(const ContactSurface& surface) {
-    double largest = 0;
-    for (const auto& [node, area] : surface.areas()) largest = std::max(largest, area);
-    return largest;
-  }
-
   std::vector<NearPlace> places(const NodalVector& x) const {
     constexpr double kLeast = 1e-8;
     std::vector<NearPlace> out;

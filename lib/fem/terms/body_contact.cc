@@ -13,6 +13,7 @@
 #include "lib/fem/contact/node_blocks.h"
 #include "lib/fem/contact/passing_time.h"
 #include "lib/fem/contact/penalty.h"
+#include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 
 namespace orthodyn {
@@ -26,7 +27,7 @@ struct ContactLaw {
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
 };
 
-class BodyContact : public Term {
+class BodyContact : public Term, public Contact {
  public:
   // The pattern must outlive the term.
   BodyContact(std::string name, const ContactLaw& law, ContactSurface first, ContactSurface second,
@@ -97,17 +98,26 @@ class BodyContact : public Term {
   // corner, or the largest area of one node.
   void add_stiffness_bound(Vector& row_sums) const override {
     for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
-      double largest = 0;
-      for (const auto& [node, area] : other->areas()) largest = std::max(largest, area);
+      const double largest = largest_area(other->areas());
       for (const auto& [node, area] : own->areas()) row_sums[node] += law_.stiffness * (area + 6 * area + largest);
     }
   }
 
-  double contact_stiffness() const override {
-    double largest = 0;
-    for (const ContactSurface* surface : {&first_, &second_})
-      for (const auto& [node, area] : surface->areas()) largest = std::max(largest, area);
-    return law_.stiffness * largest;
+  const Contact* contact() const override { return this; }
+
+  double range(double energy) const override {
+    return penalty_depth(energy,
+                         law_.stiffness * std::max(largest_area(first_.areas()), largest_area(second_.areas())));
+  }
+
+  double pressed_depth(const NodalState& s) const override {
+    double deepest = 0;
+    for_each_touch(s.x, [&](const Touch& touch, double) { deepest = std::max(deepest, touch.distance.r); });
+    return deepest;
+  }
+
+  bool has_faces_of_eight_nodes() const override {
+    return first_.has_faces_of_eight_nodes() || second_.has_faces_of_eight_nodes();
   }
 
   double longest_step(const NodalState& s) const override {

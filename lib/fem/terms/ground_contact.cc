@@ -34,11 +34,15 @@ double mean_slope(double a, double b, double w) {
   return (penalty(b, w) - penalty(a, w)) / (b - a);
 }
 
-class GroundContact : public Term {
+class GroundContact : public Term, public Contact {
  public:
   // `areas`: pairs of a node and its surface area (m^2). The pattern must outlive the term.
-  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, const BlockPattern& pattern)
-      : plane_(plane), areas_(std::move(areas)), pattern_(pattern) {}
+  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, bool has_faces_of_eight_nodes,
+                const BlockPattern& pattern)
+      : plane_(plane),
+        areas_(std::move(areas)),
+        has_faces_of_eight_nodes_(has_faces_of_eight_nodes),
+        pattern_(pattern) {}
 
   std::string name() const override { return "ground"; }
 
@@ -47,7 +51,7 @@ class GroundContact : public Term {
   }
 
   std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
-    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), pattern_);
+    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), has_faces_of_eight_nodes_, pattern_);
   }
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
 
@@ -100,11 +104,11 @@ class GroundContact : public Term {
     for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
   }
 
-  double contact_stiffness() const override {
-    double largest = 0;
-    for (const auto& [node, area] : areas_) largest = std::max(largest, area);
-    return plane_.stiffness * largest;
-  }
+  const Contact* contact() const override { return this; }
+
+  double range(double energy) const override { return penalty_depth(energy, plane_.stiffness * largest_area(areas_)); }
+
+  bool has_faces_of_eight_nodes() const override { return has_faces_of_eight_nodes_; }
 
  private:
   // Normal force of a node, N.
@@ -113,6 +117,7 @@ class GroundContact : public Term {
 
   GroundPlane plane_;
   std::vector<std::pair<int, double>> areas_;
+  bool has_faces_of_eight_nodes_;
   const BlockPattern& pattern_;
 };
 
@@ -139,11 +144,11 @@ class GroundContactChoice : public TermChoice {
   }
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
-    const auto triangles = surface_or_all(body.mesh, surface_, origin);
+    const auto faces = surface_or_all(body.mesh, surface_, origin);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
     return std::make_unique<GroundContact>(
-        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}},
-        node_areas(body.mesh, triangles), body.pattern);
+        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}}, node_areas(body.mesh, faces),
+        has_eight_nodes(body.mesh, faces), body.pattern);
   }
 
   void declare(Traits& traits) const override {

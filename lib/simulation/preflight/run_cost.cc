@@ -61,7 +61,7 @@ void measure_factor(const Setup& setup, RunCost& cost) {
 
 bool has_contact(const FemModel& model) {
   const auto& loads = model.parts().loads;
-  return std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->contact_stiffness() > 0; });
+  return std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->contact() != nullptr; });
 }
 
 // Bodies that relax or swell often move far more slowly than they vibrate.

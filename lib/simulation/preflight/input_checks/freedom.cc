@@ -135,43 +135,33 @@ void check_ground(const CheckContext& context, Warnings& out) {
   }
 }
 
-// Bodies that overlap at the start, or are far nearer than the gap of a barrier, by the depth that the contact force of
-// one node stands for.
+// Bodies that overlap at the start, or are far nearer than the gap of a barrier.
 void check_overlap(const CheckContext& context, Warnings& out) {
   constexpr double kDeep = 1e-3;  // of the extent
   if (context.is_static()) return;
   const FemModel::Parts& parts = context.built.model->parts();
   const NodalExpansion nodal = expansion_at(context, context.start());
   for (const auto& term : parts.loads) {
-    if (term->name().find("contact of") == std::string::npos) continue;
-    NodalVector f = NodalVector::Zero(3, nodal.x.cols());
-    term->add_force(nodal.state(), f);
-    const double depth = std::sqrt(f.colwise().squaredNorm().maxCoeff()) / term->contact_stiffness();
+    const double depth = term->contact() ? term->contact()->pressed_depth(nodal.state()) : 0;
     if (depth > kDeep * context.extent)
-      warn(out, "terms",
-           "the {}: they {} at the start, by the pressure of a depth of {:.2g} m or more, and are thrown apart: move "
-           "the bodies",
-           term->name(), term->name().starts_with("barrier") ? "are far nearer than the gap" : "overlap", depth);
+      warn(
+          out, "terms",
+          "{}: the bodies overlap at the start or are far nearer than the gap, under the pressure of a depth of {:.2g} "
+          "m, and are thrown apart: move them",
+          term->name(), depth);
   }
 }
 
-// Contact on faces of eight nodes: nodes share the area of a face, which is far from the forces of a uniform
-// pressure, negative at corners.
+// Nodes in contact share the area of a face: on faces of eight nodes, this is far from the forces of a uniform
+// pressure, which are negative at corners.
 void check_faces(const CheckContext& context, Warnings& out) {
   const FemModel::Parts& parts = context.built.model->parts();
-  const auto has_20_nodes = [&] {
-    for (std::size_t cell = 0; cell < parts.mesh.cells.size(); ++cell)
-      if (const CellShape shape = parts.mesh.cells.shape(cell);
-          shape == CellShape::hex20 || shape == CellShape::wedge15)
-        return true;
-    return false;
-  };
-  const auto touches = [](const auto& term) { return term->contact_stiffness() > 0; };
-  if (!std::any_of(parts.loads.begin(), parts.loads.end(), touches) || !has_20_nodes()) return;
-  warn(out, "terms",
-       "contact presses unevenly on faces of eight nodes, as of hexahedra of 20 nodes: its stiffness and the stresses "
-       "near it may be wrong by "
-       "any factor. Use elements: hexahedra_27, or order: 1");
+  for (const auto& term : parts.loads)
+    if (term->contact() && term->contact()->has_faces_of_eight_nodes())
+      warn(out, "terms",
+           "{}: contact presses unevenly on faces of eight nodes, as of hexahedra of 20 nodes: its stiffness and the "
+           "stresses near it may be wrong by any factor. Use elements: hexahedra_27, or order: 1",
+           term->name());
 }
 
 }  // namespace
