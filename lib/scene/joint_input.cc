@@ -127,16 +127,16 @@ void check_drive(const JointInput& joint, const Config& config) {
 void check_joint(const JointInput& joint, const Config& config) {
   require_name_for_csv(joint.name, {config.at("name").where()});
   check_drive(joint, config);
-  const bool is_ball = joint.type == JointType::ball;
-  if (is_ball && !joint.at) config.fail("a ball joint needs `at`, the point of both bodies");
-  if (is_ball && (joint.from || joint.to)) config.fail("a ball joint has no `from` and `to`; give `at`");
-  if (!is_ball && joint.at) config.at("at").fail("is for ball joints; give `from` and `to`");
-  if (!is_ball && (!joint.from || !joint.to))
+  const bool at_point = joint.type == JointType::ball || joint.type == JointType::fixed;
+  if (at_point && !joint.at) config.fail("a ball or fixed joint needs `at`, a point of both bodies");
+  if (at_point && (joint.from || joint.to)) config.fail("a ball or fixed joint has no `from` and `to`; give `at`");
+  if (!at_point && joint.at) config.at("at").fail("is for ball and fixed joints; give `from` and `to`");
+  if (!at_point && (!joint.from || !joint.to))
     config.fail(joint.type == JointType::hinge ? "a hinge needs `from` and `to`, the ends of its pin"
                 : joint.type == JointType::distance
                     ? "a distance needs `from`, on the first body, and `to`, on the second"
                     : "needs `from` and `to`, two points of the line along which the first body slides");
-  if (!is_ball && (*joint.from - *joint.to).norm() == 0) config.at("to").fail("is the same point as `from`");
+  if (!at_point && (*joint.from - *joint.to).norm() == 0) config.at("to").fail("is the same point as `from`");
 }
 
 }  // namespace
@@ -145,15 +145,15 @@ const Spec<JointInput>& JointInput::spec() {
   using J = JointInput;
   static const auto s =
       Spec<J>()
-          .key(
-              "type", &J::type,
-              "ball: a point of both bodies; hinge: two points, the ends of a pin; distance: a massless rod; slot: the "
-              "point `from` of the first body stays on the line of the second one through `from` and `to`; "
-              "cylindrical: "
-              "both points of the first body stay on this line; slider: they do, and the bodies do not turn about it.",
-              {.required = true})
+          .key("type", &J::type,
+               "ball: a point of both bodies; fixed: a point, and the bodies do not turn against each other; hinge: "
+               "two points, the ends of a pin; distance: a massless rod; slot: the "
+               "point `from` of the first body stays on the line of the second one through `from` and `to`; "
+               "cylindrical: "
+               "both points of the first body stay on this line; slider: they do, and the bodies do not turn about it.",
+               {.required = true})
           .key("name", &J::name, "Name of the outputs, such as joint.NAME.", {.required = true})
-          .key("at", &J::at, "The point of a ball joint.", {.unit = "m"})
+          .key("at", &J::at, "The point of a ball or fixed joint.", {.unit = "m"})
           .key("from", &J::from,
                "First end of the pin of a hinge, of the rod, on the first body, or of the line of a slot or slider.",
                {.unit = "m"})
@@ -197,129 +197,6 @@ void JointInput::declare(Traits& traits) const {
   if (!law().dissipates()) return;
   traits.damping_matrix = traits.dissipative = true;
   traits.conservative = false;
-}
-
-namespace {
-
-// The points of the two bodies of a joint.
-class Ends {
- public:
-  Ends(const JointInput& joint, const Mesh& mesh, const std::vector<RigidBody>& rigid) : joint_(joint), mesh_(mesh) {
-    first_ = end_of(joint.first, rigid);
-    if (joint.second) second_ = end_of(*joint.second, rigid);
-  }
-
-  bool are_rigid() const { return first_.body && (!joint_.second || second_.body); }
-  // Whether both ends hold the point.
-  bool can_hold(const Vec3& point) const {
-    return !found(first_, point).weights.empty() && (!joint_.second || !found(second_, point).weights.empty());
-  }
-
-  JointPoint first(const Vec3& point) const { return held(joint_.first, first_, point); }
-  JointPoint second(const Vec3& point) const {
-    return joint_.second ? held(*joint_.second, second_, point) : JointPoint{{}, point};
-  }
-
- private:
-  struct End {
-    std::vector<int> nodes;
-    const RigidBody* body = nullptr;  // that has all the nodes; null for none
-  };
-
-  End end_of(const JointEnd& end, const std::vector<RigidBody>& rigid) const {
-    End out{selected_nodes(end, mesh_)};
-    for (const RigidBody& body : rigid)
-      if (body.contains(out.nodes)) out.body = &body;
-    return out;
-  }
-
-  JointPoint found(const End& end, const Vec3& point) const {
-    return end.body ? end.body->point(mesh_, point) : joint_point(mesh_, end.nodes, point);
-  }
-
-  JointPoint held(const JointEnd& given, const End& end, const Vec3& point) const {
-    JointPoint out = found(end, point);
-    if (out.weights.empty())
-      given.origin.fail(fmt::format(
-          "the {} selected node{} cannot hold the point [{:.6g}, {:.6g}, {:.6g}]: nodes of a plane hold points of this "
-          "plane, a node holds its own place only; move the point, or select nodes on all sides of it",
-          end.nodes.size(), end.nodes.size() == 1 ? "" : "s", point[0], point[1], point[2]));
-    return out;
-  }
-
-  const JointInput& joint_;
-  const Mesh& mesh_;
-  End first_, second_;
-};
-
-// The joint's line and two directions at right angles to it and to each other, as long as the line.
-struct Directions {
-  Vec3 line, side, other;
-};
-
-Directions directions(const JointInput& joint) {
-  const Vec3 line = *joint.to - *joint.from, side = line.norm() * line.unitOrthogonal();
-  return {line, side, line.normalized().cross(side)};
-}
-
-// Two points coincide. Two rigid bodies keep the distance of both points by themselves: then the second point is held
-// across the line only.
-void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
-  const Vec3 from = *joint.from, to = *joint.to;
-  const auto [line, side, other] = directions(joint);
-  const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
-  const auto across = [&](const Vec3& offset) {
-    return JointEquation::across(ends.first(to), ends.second(from), ends.second(from + offset));
-  };
-  if (ends.are_rigid()) out.equations = {coincide(from), across(side), across(other)};
-  else out.equations = {coincide(from), coincide(to)};
-  const bool is_used = joint.motor || joint.has_forces();
-  if (!is_used && !(ends.can_hold(from + side) && ends.can_hold(from + other))) return;
-  out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
-                                            ends.second(from + side), ends.second(from + other));
-}
-
-void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
-  const Vec3 from = *joint.from;
-  const auto [line, side, other] = directions(joint);
-  // `from + along` and `from + offset` are points of the first and of the second body.
-  const auto across = [&](const Vec3& along, const Vec3& offset) {
-    return JointEquation::across(ends.first(from + along), ends.second(from), ends.second(from + offset));
-  };
-  const Vec3 here = Vec3::Zero();
-  out.equations = {across(here, side), across(here, other)};
-  if (joint.type != JointType::slot) {
-    out.equations.push_back(across(line, side));
-    out.equations.push_back(across(line, other));
-  }
-  if (joint.type == JointType::slider) out.equations.push_back(across(side, other));
-  out.coordinate = JointCoordinate::sliding(ends.first(from), ends.second(from), ends.second(*joint.to));
-}
-
-JointEquation driven(const JointInput& joint, const Ends& ends, JointMotor motor) {
-  const Vec3 from = *joint.from;
-  if (joint.slides())
-    return JointEquation::slide(ends.first(from), ends.second(from), ends.second(*joint.to), std::move(motor));
-  const auto [line, side, other] = directions(joint);
-  return JointEquation::turn(ends.first(from + side), ends.second(from), ends.second(from + other),
-                             ends.second(from + side), std::move(motor));
-}
-
-}  // namespace
-
-Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid, double start, double end) const {
-  const Ends ends(*this, mesh, rigid);
-  Joint joint{name, origin.where, {}};
-  if (type == JointType::ball) joint.equations = {JointEquation::coincide(ends.first(*at), ends.second(*at))};
-  else if (type == JointType::distance)
-    joint.equations = {JointEquation::distance(ends.first(*from), ends.second(*to))};
-  else if (turns()) add_hinge(*this, ends, joint);
-  else add_slide(*this, ends, joint);
-  if (motor) {
-    const auto resolved = motor->factor->over(start, end);
-    joint.equations.push_back(driven(*this, ends, {motor->to, resolved ? resolved : motor->factor}));
-  }
-  return joint;
 }
 
 }  // namespace orthodyn

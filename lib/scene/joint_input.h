@@ -17,19 +17,21 @@
 
 namespace orthodyn {
 
-// ball: one point of both bodies. hinge: two points, so that both bodies turn about the line through them. distance: a
-// massless rod between a point of each body. slot: a point of the first body stays on a line of the second one.
-// cylindrical: two points stay on the line. slider: they do, and the first body does not turn about it.
-enum class JointType { ball, hinge, distance, slot, cylindrical, slider };
+// ball: one point of both bodies. fixed: a point, and neither body turns against the other one. hinge: two points, so
+// that both bodies turn about the line through them. distance: a massless rod between a point of each body. slot: a
+// point of the first body stays on a line of the second one. cylindrical: two points stay on the line. slider: they do,
+// and the first body does not turn about it.
+enum class JointType { ball, hinge, distance, slot, cylindrical, slider, fixed };
 
 template <>
 struct EnumNames<JointType> {
-  static constexpr std::array<std::pair<JointType, const char*>, 6> list{{{JointType::ball, "ball"},
+  static constexpr std::array<std::pair<JointType, const char*>, 7> list{{{JointType::ball, "ball"},
                                                                           {JointType::hinge, "hinge"},
                                                                           {JointType::distance, "distance"},
                                                                           {JointType::slot, "slot"},
                                                                           {JointType::cylindrical, "cylindrical"},
-                                                                          {JointType::slider, "slider"}}};
+                                                                          {JointType::slider, "slider"},
+                                                                          {JointType::fixed, "fixed"}}};
 };
 
 // The nodes of a body that a joint holds.
@@ -69,7 +71,7 @@ struct JointDrive {
 struct JointInput {
   JointType type = JointType::ball;
   std::string name;
-  std::optional<Vec3> at;        // m, of a ball
+  std::optional<Vec3> at;        // m, of a ball or fixed joint
   std::optional<Vec3> from, to;  // m, ends of a hinge's pin, of a rod, or two points of a line
   JointEnd first;
   std::optional<JointEnd> second;  // empty: a point in space

@@ -99,6 +99,48 @@ TEST(RigidBodies, TurnOverAboutTheMiddleAxis) {
   }
 }
 
+// Two halves of the box with a fixed joint turn over as the whole box does, whether they are rigid or only stiff.
+TEST(FixedJoint, OfTwoHalvesMakesThemOneBody) {
+  const Vec3 spin(0.02, 4, 0);
+  const double end = 4;
+  const Turning exact = exact_turning(kInertia, spin, end, [](const Mat3&) -> Vec3 { return Vec3::Zero(); });
+  for (const char* regions : {"all: {material: m, rigid: true}", "all: {material: m}",
+                              "left: {material: m, rigid: true}, right: {material: m}"}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    left: {{mesh: {{type: box, size: [0.5, 0.4, 0.2], cells: [1, 1, 1], order: 1, origin: [-0.5, -0.2, -0.1]}}}}
+    right: {{mesh: {{type: box, size: [0.5, 0.4, 0.2], cells: [1, 1, 1], order: 1, origin: [0, -0.2, -0.1]}}}}
+materials: {{m: {{type: isotropic, density: 500, young: 1e9, nu: 0.3}}}}
+regions: {{{}}}
+joints: [{{type: fixed, name: weld, at: [0, 0, 0], first: {{surface: left.x1}}, second: {{surface: right.x0}}}}]
+damping: {{stiffness: 1e-4}}
+initial: {{spin: [0.02, 4, 0]}}
+time: {{end: {}}}
+integrator: {{type: ida_bdf, rtol: 1e-7}}
+)",
+                                       regions, end));
+    const Motion motion = motion_of(s);
+    EXPECT_LE(error_of(s, motion.last.q, exact.R), 2e-3) << regions;
+    EXPECT_LE(s.model().evaluate("joints.gap", motion.last)[0], 1e-6) << regions;
+    const auto L = s.model().evaluate("momentum.angular", motion.last);
+    EXPECT_LE((Vec3(L[0], L[1], L[2]) - kInertia.cwiseProduct(spin)).norm(), 1e-3 * 40) << regions;
+  }
+}
+
+// A box that is fixed in space by a joint at its end stays at rest: the force of the joint is its weight.
+TEST(FixedJoint, CarriesABoxByItsEnd) {
+  const BuiltTestScene s(
+      box("joints: [{type: fixed, name: wall, at: [-0.5, 0, 0], first: {region: body}}]\n"
+          "gravity: [0, 0, -10]\ntime: {end: 1}",
+          1e-5));
+  const Motion motion = motion_of(s);
+  EXPECT_LE((s.positions(motion.last.q) - *s.model().parts().rest).colwise().norm().maxCoeff(), 1e-9);
+  const auto force = s.model().evaluate("joint.wall", motion.last);
+  EXPECT_LE((Vec3(force[0], force[1], force[2]) - Vec3(0, 0, 400)).norm(), 1e-6 * 400);
+}
+
 // A heavy top: a square bar that spins about a ball joint at one end.
 TEST(RigidBodies, PrecessAsAHeavyTop) {
   const double end = 1.5, mass = 40, length = 1;

@@ -1,0 +1,177 @@
+// The equations of a joint in the input.
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "lib/scene/joint_input.h"
+
+namespace orthodyn {
+
+namespace {
+
+// The nodes' mean, their root mean square distance from it, and the two directions in which they spread most.
+struct Spread {
+  double size;  // m
+  Vec3 first, second;
+};
+
+Spread spread_of(const Mesh& mesh, const std::vector<int>& nodes) {
+  Eigen::Matrix3Xd x(3, std::ssize(nodes));
+  for (std::size_t k = 0; k < nodes.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = mesh.node(nodes[k]);
+  x.colwise() -= Vec3(x.rowwise().mean());
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(x * x.transpose());
+  return {x.norm() / std::sqrt(static_cast<double>(x.cols())), eigen.eigenvectors().col(2),
+          eigen.eigenvectors().col(1)};
+}
+
+// The points of the two bodies of a joint.
+class Ends {
+ public:
+  Ends(const JointInput& joint, const Mesh& mesh, const std::vector<RigidBody>& rigid) : joint_(joint), mesh_(mesh) {
+    first_ = end_of(joint.first, rigid);
+    if (joint.second) second_ = end_of(*joint.second, rigid);
+  }
+
+  bool are_rigid() const { return first_.body && (!joint_.second || second_.body); }
+  // Whether both ends hold the point.
+  bool can_hold(const Vec3& point) const {
+    return !found(first_, point).weights.empty() && (!joint_.second || !found(second_, point).weights.empty());
+  }
+
+  // Of the nodes of the first deformable body, or of the first body.
+  Spread spread() const {
+    const End& end = first_.body && joint_.second ? second_ : first_;
+    const Spread spread = spread_of(mesh_, end.body ? end.body->nodes() : end.nodes);
+    if (spread.size == 0) joint_.origin.fail("one node cannot hold directions; select more nodes of the body");
+    return spread;
+  }
+
+  JointPoint first(const Vec3& point) const { return held(joint_.first, first_, point); }
+  JointPoint second(const Vec3& point) const {
+    return joint_.second ? held(*joint_.second, second_, point) : JointPoint{{}, point};
+  }
+
+ private:
+  struct End {
+    std::vector<int> nodes;
+    const RigidBody* body = nullptr;  // that has all the nodes; null for none
+  };
+
+  End end_of(const JointEnd& end, const std::vector<RigidBody>& rigid) const {
+    End out{selected_nodes(end, mesh_)};
+    for (const RigidBody& body : rigid)
+      if (body.contains(out.nodes)) out.body = &body;
+    return out;
+  }
+
+  JointPoint found(const End& end, const Vec3& point) const {
+    return end.body ? end.body->point(mesh_, point) : joint_point(mesh_, end.nodes, point);
+  }
+
+  JointPoint held(const JointEnd& given, const End& end, const Vec3& point) const {
+    JointPoint out = found(end, point);
+    if (out.weights.empty())
+      given.origin.fail(fmt::format(
+          "the {} selected node{} cannot hold the point [{:.6g}, {:.6g}, {:.6g}]: nodes of a plane hold points of this "
+          "plane, a node holds its own place only; move the point, or select nodes on all sides of it",
+          end.nodes.size(), end.nodes.size() == 1 ? "" : "s", point[0], point[1], point[2]));
+    return out;
+  }
+
+  const JointInput& joint_;
+  const Mesh& mesh_;
+  End first_, second_;
+};
+
+// The joint's line and two directions at right angles to it and to each other, as long as the line.
+struct Directions {
+  Vec3 line, side, other;
+};
+
+Directions directions(const JointInput& joint) {
+  const Vec3 line = *joint.to - *joint.from, side = line.norm() * line.unitOrthogonal();
+  return {line, side, line.normalized().cross(side)};
+}
+
+// Two points coincide. Two rigid bodies keep the distance of both points by themselves: then the second point is held
+// across the line only.
+void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
+  const Vec3 from = *joint.from, to = *joint.to;
+  const auto [line, side, other] = directions(joint);
+  const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
+  const auto across = [&](const Vec3& offset) {
+    return JointEquation::across(ends.first(to), ends.second(from), ends.second(from + offset));
+  };
+  if (ends.are_rigid()) out.equations = {coincide(from), across(side), across(other)};
+  else out.equations = {coincide(from), coincide(to)};
+  const bool is_used = joint.motor || joint.has_forces();
+  if (!is_used && !(ends.can_hold(from + side) && ends.can_hold(from + other))) return;
+  out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
+                                            ends.second(from + side), ends.second(from + other));
+}
+
+void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
+  const Vec3 from = *joint.from;
+  const auto [line, side, other] = directions(joint);
+  // `from + along` and `from + offset` are points of the first and of the second body.
+  const auto across = [&](const Vec3& along, const Vec3& offset) {
+    return JointEquation::across(ends.first(from + along), ends.second(from), ends.second(from + offset));
+  };
+  const Vec3 here = Vec3::Zero();
+  out.equations = {across(here, side), across(here, other)};
+  if (joint.type != JointType::slot) {
+    out.equations.push_back(across(line, side));
+    out.equations.push_back(across(line, other));
+  }
+  if (joint.type == JointType::slider) out.equations.push_back(across(side, other));
+  out.coordinate = JointCoordinate::sliding(ends.first(from), ends.second(from), ends.second(*joint.to));
+}
+
+// Two rigid bodies share a point, and three pairs of their directions stay at right angles. Other bodies share three
+// points of the plane in which the nodes of the first deformable one spread most.
+void add_fixed(const JointInput& joint, const Ends& ends, Joint& out) {
+  const Vec3 at = *joint.at;
+  const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
+  const auto [size, a, b] = ends.spread();
+  out.equations = {coincide(at)};
+  if (!ends.are_rigid()) {
+    out.equations.push_back(coincide(at + size * a));
+    out.equations.push_back(coincide(at + size * b));
+    return;
+  }
+  const Vec3 c = a.cross(b);
+  for (const auto& [of_first, of_second] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    out.equations.push_back(
+        JointEquation::across(ends.first(at + size * of_first), ends.second(at), ends.second(at + size * of_second)));
+}
+
+JointEquation driven(const JointInput& joint, const Ends& ends, JointMotor motor) {
+  const Vec3 from = *joint.from;
+  if (joint.slides())
+    return JointEquation::slide(ends.first(from), ends.second(from), ends.second(*joint.to), std::move(motor));
+  const auto [line, side, other] = directions(joint);
+  return JointEquation::turn(ends.first(from + side), ends.second(from), ends.second(from + other),
+                             ends.second(from + side), std::move(motor));
+}
+
+}  // namespace
+
+Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid, double start, double end) const {
+  const Ends ends(*this, mesh, rigid);
+  Joint joint{name, origin.where, {}};
+  if (type == JointType::ball) joint.equations = {JointEquation::coincide(ends.first(*at), ends.second(*at))};
+  else if (type == JointType::distance)
+    joint.equations = {JointEquation::distance(ends.first(*from), ends.second(*to))};
+  else if (type == JointType::fixed) add_fixed(*this, ends, joint);
+  else if (turns()) add_hinge(*this, ends, joint);
+  else add_slide(*this, ends, joint);
+  if (motor) {
+    const auto resolved = motor->factor->over(start, end);
+    joint.equations.push_back(driven(*this, ends, {motor->to, resolved ? resolved : motor->factor}));
+  }
+  return joint;
+}
+
+}  // namespace orthodyn
