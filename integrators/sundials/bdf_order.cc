@@ -8,6 +8,7 @@ namespace orthodyn::sundials {
 int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
               const Scales& scales) {
   if (given) return *given;
+  if (model.traits().rigid && model.traits().smooth) return 5;
   if (!model.traits().damped) return 2;
   Statistics unused;
   CriticalStep critical(model, unused);

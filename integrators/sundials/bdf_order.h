@@ -8,8 +8,8 @@
 
 namespace orthodyn::sundials {
 
-// Returns `given` if it has a value. Otherwise returns 5 if the motion is well damped (damping_ratio.h), else 2.
-// `start`: initial state.
+// Returns `given` if it has a value. Otherwise returns 5 if no body deforms and nothing touches, or if the motion is
+// well damped (damping_ratio.h), else 2. `start`: initial state.
 int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
               const Scales& scales);
 
@@ -19,7 +19,8 @@ template <class T>
 Spec<T> bdf_spec() {
   auto spec = Options::spec_for<T>();
   spec.key("max_order", &T::max_order,
-           "Highest order; default 5 if the damping ratio of the motion is above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
+           "Highest order; default 5 if all bodies are rigid and there is no contact, or if the damping ratio of the "
+           "motion is above 1e-3 (5e-3 at rtol >= 5e-3), else 2.",
            {.range = {1, 5}});
   SensitivityOptions::add_to(spec);
   return spec;

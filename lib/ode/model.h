@@ -41,6 +41,7 @@ struct Traits {
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
   bool smooth = true;           // f has no kinks in q: there is no contact
+  bool rigid = false;           // no body deforms: only springs, stops and contact could vibrate
   bool free = false;            // no point is held: only loads change the linear momentum
   bool exact_stiffness = true;  // K is -df/dq or its symmetric part, not an approximation
 };

@@ -61,6 +61,7 @@ void add_supports(Supports supports, const ElementMesh& elements, const MassSour
     parts.support_mass = std::make_unique<SupportMass>(*parts.mass, elements, sources, *parts.dofs);
 }
 
+// Of the regions that are not rigid.
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
   const auto is_damped = [&](const Region* r) { return stiffness_damping(scene, *r) > 0; };
   const auto all = [&](auto&& is) {
@@ -68,9 +69,10 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   };
   Traits traits;
   traits.linear = all([](const ElasticityOptions& e) { return e.kinematics == Kinematics::linear; });
-  traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
+  traits.damped = !regions.empty() && std::all_of(regions.begin(), regions.end(), is_damped);
   traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
   traits.lumped_mass = scene.mass == MassKind::lumped;
+  traits.rigid = regions.empty();
   traits.free = scene.clamps.empty() && scene.motions.empty();
   traits.exact_stiffness = all([](const ElasticityOptions& e) { return e.has_exact_tangent(); });
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
