@@ -273,8 +273,9 @@ std::optional<int> node_below(const ContactSurface& own, const ContactSurface& o
   return std::nullopt;
 }
 
-RecoverableError crossing_error(int node) {
-  return RecoverableError(fmt::format("surfaces touch or cross near node {}", node));
+RecoverableError crossing_error(int node, const NodalVector& x) {
+  return RecoverableError(fmt::format("surfaces touch or cross near [{:.4g}, {:.4g}, {:.4g}] m (node {})", x(0, node),
+                                      x(1, node), x(2, node), node));
 }
 
 }  // namespace
@@ -284,7 +285,7 @@ std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   std::optional<int> crossed;
   if (!is_one()) crossed = node_below(first_, second_, x);
   if (!is_one() && !crossed) crossed = node_below(second_, first_, x);
-  if (crossed) throw crossing_error(*crossed);
+  if (crossed) throw crossing_error(*crossed, x);
   const Bounds region = grown(first_.box(x), gap_).intersection(grown(second_.box(x), gap_));
   if (region.isEmpty()) return out;
   const SearchedSurface second(second_, x, region);
@@ -292,7 +293,7 @@ std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   if (!is_one()) first.emplace(first_, x, region);
   crossed = crossing(first_, second, region);
   if (!crossed && first) crossed = crossing(second_, *first, region);
-  if (crossed) throw crossing_error(*crossed);
+  if (crossed) throw crossing_error(*crossed, x);
   add_nodes(first_, second, region, gap_, out);
   if (first) add_nodes(second_, *first, region, gap_, out);
   add_edges(first_, second_, x, region, gap_, out);

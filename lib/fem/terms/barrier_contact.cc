@@ -18,6 +18,7 @@
 #include "lib/fem/contact/near_features.h"
 #include "lib/fem/contact/node_blocks.h"
 #include "lib/fem/contact/passing_time.h"
+#include "lib/fem/contact/remembered_places.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 
@@ -66,7 +67,8 @@ class BarrierContact : public Term, public Contact {
   std::size_t bytes() const override { return first_.bytes() + (second_ ? second_->bytes() : 0); }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for (const NearPlace& place : places(s.x)) {
+    const auto all = places(s.x);
+    for (const NearPlace& place : *all) {
       const EdgeWeight weight = weight_of(place);
       Vec3 force = pressing(place, weight) * place.distance.n;
       if (law_.friction.acts())
@@ -80,7 +82,8 @@ class BarrierContact : public Term, public Contact {
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
-    for (const NearPlace& place : places(s.x)) {
+    const auto all = places(s.x);
+    for (const NearPlace& place : *all) {
       const EdgeWeight weight = weight_of(place);
       const Mat12 K = kind == TangentKind::exact ? exact(place, weight) : definite(place, weight);
       const auto add = [&](const auto& block, double* values) {
@@ -98,7 +101,8 @@ class BarrierContact : public Term, public Contact {
   double dissipation(const NodalState& s) const override {
     if (!law_.friction.acts()) return 0;
     double sum = 0;
-    for (const NearPlace& place : places(s.x)) {
+    const auto all = places(s.x);
+    for (const NearPlace& place : *all) {
       const Vec3 velocity = relative_velocity(place.distance, place.nodes, s.v);
       sum -= velocity.dot(law_.friction.force(velocity, place.distance.n, pressing(place, weight_of(place))));
     }
@@ -111,7 +115,8 @@ class BarrierContact : public Term, public Contact {
 
   double energy(const NodalState& s) const override {
     double sum = 0;
-    for (const NearPlace& place : places(s.x)) sum += weight_of(place).value * energy_of(place);
+    const auto all = places(s.x);
+    for (const NearPlace& place : *all) sum += weight_of(place).value * energy_of(place);
     return sum;
   }
 
@@ -133,7 +138,8 @@ class BarrierContact : public Term, public Contact {
 
   double pressed_depth(const NodalState& s) const override {
     double least = 1;
-    for (const NearPlace& place : places(s.x)) least = std::min(least, relative(place));
+    const auto all = places(s.x);
+    for (const NearPlace& place : *all) least = std::min(least, relative(place));
     return -law_.gap * barrier_slope(least);
   }
 
@@ -148,7 +154,11 @@ class BarrierContact : public Term, public Contact {
   }
 
  private:
-  std::vector<NearPlace> places(const NodalVector& x) const {
+  RememberedPlaces::Places places(const NodalVector& x) const {
+    return remembered_.at(first_, second_ ? *second_ : first_, x, [&] { return found(x); });
+  }
+
+  std::vector<NearPlace> found(const NodalVector& x) const {
     constexpr double kLeast = 1e-8;
     std::vector<NearPlace> out;
     try {
@@ -214,6 +224,7 @@ class BarrierContact : public Term, public Contact {
   ContactSurface first_;
   std::optional<ContactSurface> second_;
   NearFeatures near_;
+  RememberedPlaces remembered_;
   NodalVector rest_;  // m; empty without `slide`
   const BlockPattern& pattern_;
 };
