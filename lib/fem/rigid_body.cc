@@ -12,7 +12,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of distances from a line or plane, relative to the body
+constexpr double kOnLine = 1e-9;  // of distances from a line or plane, relative to the body
 
 // Distance of x from the point, line or plane through the given points.
 double distance_from(const std::vector<Vec3>& through, const Vec3& x) {
@@ -69,15 +69,15 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
     double farthest = -1;
     int best = -1;
     for (const int node : nodes)
-      if (const double distance = distance_from(through, mesh.node(node)); distance > (1 + kRoundOff) * farthest) {
+      if (const double distance = distance_from(through, mesh.node(node)); distance > (1 + kOnLine) * farthest) {
         farthest = distance;
         best = node;
       }
     size = std::max(size, farthest);
-    if (farthest <= kRoundOff * size) return frame;
+    if (farthest <= kOnLine * size) return frame;
     const auto from_third = [&](int node) { return (mesh.node(node) - through.back()).norm(); };
     for (const int node : nodes)
-      if (k == 3 && from_third(node) < (1 - kRoundOff) * from_third(best) &&
+      if (k == 3 && from_third(node) < (1 - kOnLine) * from_third(best) &&
           distance_from(through, mesh.node(node)) >= kAlmost * farthest)
         best = node;
     frame.push_back(best);

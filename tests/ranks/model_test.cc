@@ -59,7 +59,9 @@ TEST_P(SharedModel, StartsAlike) {
 TEST_P(SharedModel, IsDividedAsItsNameTells) {
   const Ranks& ranks = parts().parts().subdomain->ranks();
   const auto& subdomain = *parts().parts().subdomain;
-  if (GetParam().name == "small" && ranks.size() == 7) EXPECT_TRUE(ranks.any(subdomain.cells().empty()));
+  if (GetParam().name == "small" && ranks.size() == 7) {
+    EXPECT_TRUE(ranks.any(subdomain.cells().empty()));
+  }
   if (GetParam().name == "touching") {
     const State state = some_state();
     const NodalExpansion nodal(one().parts(), state.t, state.q, state.v);
@@ -70,7 +72,9 @@ TEST_P(SharedModel, IsDividedAsItsNameTells) {
   }
   if (GetParam().name != "moved" && GetParam().name != "tied") return;
   const double has_held_ones = parts().num_dofs() < 3 * subdomain.num_owned() ? 1 : 0;
-  if (ranks.size() > 1) EXPECT_GE(ranks.sum(has_held_ones), 2);
+  if (ranks.size() > 1) {
+    EXPECT_GE(ranks.sum(has_held_ones), 2);
+  }
 }
 
 TEST_P(SharedModel, HasTheSameForce) {
@@ -217,7 +221,9 @@ TEST_P(SharedModel, TellsTheSameOfAState) {
       if (!std::isnan(x)) size = std::max(size, std::abs(x));
     for (std::size_t i = 0; i < found.size(); ++i) {
       ASSERT_EQ(std::isnan(found[i]), std::isnan(expected[i])) << info.name << " " << i;
-      if (!std::isnan(found[i])) ASSERT_NEAR(found[i], expected[i], 1e-10 * size) << info.name << " " << i;
+      if (!std::isnan(found[i])) {
+        ASSERT_NEAR(found[i], expected[i], 1e-10 * size) << info.name << " " << i;
+      }
     }
     ++compared;
   }

@@ -159,7 +159,9 @@ TEST_F(GradientOfAMotion, ReportsItsProgressAndAccuracy) {
   double last = 0;  // time of the motion
   for (const GradientProgress& one : told) {
     EXPECT_NEAR(one.share, one.stage == Stage::motion ? one.at / 0.1 : 1 - one.at / 0.1, 1e-12);
-    if (one.stage == Stage::motion) EXPECT_GT(one.at, std::exchange(last, one.at));
+    if (one.stage == Stage::motion) {
+      EXPECT_GT(one.at, std::exchange(last, one.at));
+    }
   }
   EXPECT_NEAR(last, 0.1, 1e-12);
   EXPECT_NEAR(told.back().share, 1, 0.05);

@@ -20,21 +20,21 @@ Ties::Ties(int num_nodes, std::vector<TiedNode> nodes)
     : nodes_(std::move(nodes)), index_(static_cast<std::size_t>(num_nodes), -1) {
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     index_[static_cast<std::size_t>(nodes_[k].node)] = static_cast<int>(k);
-  enum class State { open, begun, resolved };
-  std::vector<State> states(nodes_.size(), State::open);
+  enum class Progress { open, begun, resolved };
+  std::vector<Progress> states(nodes_.size(), Progress::open);
   const std::function<void(std::size_t)> resolve = [&](std::size_t k) {
-    if (states[k] == State::resolved) return;
-    if (states[k] == State::begun)
+    if (states[k] == Progress::resolved) return;
+    if (states[k] == Progress::begun)
       throw ConfigError("ties",
                         "surfaces follow each other in a circle; let each tie start at a surface that follows none");
-    states[k] = State::begun;
+    states[k] = Progress::begun;
     std::map<int, double> sums;
     for (const auto& [leader, weight] : nodes_[k].leaders) {
       if (const int tied = index_[static_cast<std::size_t>(leader)]; tied >= 0) resolve(static_cast<std::size_t>(tied));
       for_each_leader(leader, [&, of_leader = weight](int of, double share) { sums[of] += of_leader * share; });
     }
     nodes_[k].leaders.assign(sums.begin(), sums.end());
-    states[k] = State::resolved;
+    states[k] = Progress::resolved;
   };
   for (std::size_t k = 0; k < nodes_.size(); ++k) resolve(k);
 }
