@@ -289,6 +289,49 @@ TEST(BarrierContact, OfABodyWithItselfHasItsDerivatives) {
   expect_derivative([&](double h) { return force(q + h * d); }, -change);
 }
 
+// Friction of a bent strip that touches itself is against the sliding velocity, and its derivatives are the damping.
+TEST(BarrierContact, OfABodyWithItselfHasFriction) {
+  const BuiltTestScene s(ring_of(", gap: 0.02, friction: 0.3, creep: 0.1"));
+  const Vector q = s.dofs([](const Vec3& x) {
+    const double angle = 6.1 * (x[0] / 0.4 - 0.5), radius = 0.4 / 6.1 + 0.3 - x[2];
+    return Vec3(Vec3(radius * std::sin(angle), x[1], -radius * std::cos(angle)) - x);
+  });
+  Random random(87);
+  const Vector v = random_dofs(random, s.size(), 0.1), d = random_dofs(random, s.size(), 1e-3);
+  const auto contact = s.model().only({s.model().force_parts().back()});
+  const auto force = [&](const Vector& at) {
+    Vector f(at.size());
+    contact->force(0, q, at, f);
+    return f;
+  };
+  const Vector friction = force(v) - force(s.zero());
+  EXPECT_GT(friction.norm(), 1e-6);
+  EXPECT_LT(friction.dot(v), 0);
+  Linearization at;
+  contact->linearize(0, q, v, TangentKind::exact, at);
+  std::vector<double> D(contact->pattern().row.size());
+  contact->combine({0, 1, 0}, at, D.data());
+  Vector change(s.size());
+  contact->multiply_matrix(D.data(), d, change);
+  expect_derivative([&](double h) { return force(v + h * d); }, -change);
+}
+
+// A block of which the far side touches later than `slide` allows has no force there, but an error.
+TEST(BarrierContact, StopsWhereItsSlideIsTooSmall) {
+  const BuiltTestScene s(blocks("cells: [3, 2, 1], order: 1", 0.03, 0, ", slide: 0.8"));
+  const auto move = [&](double along) {
+    return s.dofs([&](const Vec3& x) { return x[2] > 0.51 ? Vec3(along, 0, 0) : Vec3(Vec3::Zero()); });
+  };
+  EXPECT_GT(s.force(move(0)).norm(), 0);
+  EXPECT_GT(s.force(move(-0.1)).norm(), 0);
+  try {
+    s.force(move(-0.6));
+    ADD_FAILURE() << "accepted";
+  } catch (const std::exception& e) {
+    EXPECT_THAT(e.what(), HasSubstr("slide"));
+  }
+}
+
 TEST(BarrierContact, IsRefusedWithTheReason) {
   const auto message = [](const std::string& yaml) {
     try {

@@ -1,0 +1,95 @@
+// Programs' results for bodies that are joined and that touch: resumed runs, tables, and warnings before a run.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lib/simulation/run/setup.h"
+#include "tests/simulation/result_reader.h"
+#include "tests/simulation/resume_fixture.h"
+
+namespace orthodyn::assemblies_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// A rigid bar swings about a hinge and hits a soft block.
+const char* const kGong = R"(
+mesh:
+  type: bodies
+  bodies:
+    bar: {mesh: {type: box, size: [0.04, 0.04, 0.4], cells: [1, 1, 1], elements: hexahedra, order: 1, origin: [-0.02, -0.02, -0.4]}}
+    block: {mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [2, 2, 2], elements: hexahedra, order: 1, origin: [0.05, -0.05, -0.45]}}
+materials: {m: {type: isotropic, density: 500, young: 1e6, nu: 0.3}}
+regions: {bar: {material: m, rigid: true}, block: {material: m}}
+clamps: [{surface: block.x1}]
+joints: [{type: hinge, name: pivot, from: [0, -0.02, 0], to: [0, 0.02, 0], first: {region: bar}}]
+terms: [{type: barrier_contact, between: [bar, block], stiffness: 1e9}]
+gravity: [0, 0, -10]
+initial: {velocity_field: ["z > -0.41 && x < 0.03 ? -2*z : 0", 0, "x < 0.03 ? 2*x : 0"]}
+time: {end: 0.2}
+checkpoint: {every: 1000}
+output: {reactions: true, mesh_error: false, probes: {end: {at: [0.02, 0.02, -0.4]}}}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)";
+
+TEST_F(Resume, BodiesThatAreJoinedAndTouchGoOn) {
+  write("gong.yaml", kGong);
+  const auto first = orthodyn("run gong.yaml --quiet --out part");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  const auto longer = orthodyn("run gong.yaml --quiet --out part --resume --set time.end=0.3");
+  ASSERT_EQ(longer.exit_code, 0) << longer.output;
+  ASSERT_EQ(orthodyn("run gong.yaml --quiet --out whole --set time.end=0.3").exit_code, 0);
+  const auto a = read_rows(folder_ / "part/probes.csv"), b = read_rows(folder_ / "whole/probes.csv");
+  ASSERT_EQ(a.back().at(0), b.back().at(0));
+  EXPECT_NEAR(a.back().at(1), b.back().at(1), 1e-4);  // end.displacement.x, m
+  double farthest = 0;
+  for (const auto& row : b) farthest = std::max(farthest, row.at(1));
+  EXPECT_LT(b.back().at(1), farthest - 0.005);  // thrown back
+}
+
+TEST_F(Resume, TablesHaveTheColumnsOfJoints) {
+  write("gong.yaml", kGong);
+  ASSERT_EQ(orthodyn("run gong.yaml --quiet --out gong").exit_code, 0);
+  const std::string header = read_text(folder_ / "gong/probes.csv");
+  for (const char* column : {"joint.pivot.x", "joint.pivot.z", "coordinate.pivot"})
+    EXPECT_THAT(header.substr(0, header.find('\n')), HasSubstr(column));
+}
+
+// The warnings before a run of two blocks, the upper one at the height z.
+std::string warnings_of(const std::string& elements, const std::string& type, double z) {
+  std::string words;
+  for (const auto& warning : set_up(Config::from_text(fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {{mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1], {0}}}}}
+    upper: {{mesh: {{type: box, size: [0.6, 0.6, 0.6], cells: [1, 1, 1], {0}}}, translation: [0.17, 0.13, {1}]}}
+materials: {{m: {{type: orthotropic_stable, density: 500, young: [1e7, 1e6, 2e6], nu: 0.3}}}}
+clamps: [{{surface: lower.z0}}]
+gravity: [0, 0, -10]
+terms: [{{type: {2}, between: [lower, upper], stiffness: 1e9}}]
+time: {{end: 0.1}}
+integrator: {{type: ida_bdf}}
+)",
+                                                                  elements, z, type),
+                                                      "scene.yaml"))
+                                 .built.warnings)
+    words += warning + "\n";
+  return words;
+}
+
+TEST(ContactChecks, TellOfOverlapsAndOfFacesOfEightNodes) {
+  const std::string plain = "elements: hexahedra, order: 1", serendipity = "elements: hexahedra",
+                    full = "elements: hexahedra_27";
+  EXPECT_EQ(warnings_of(plain, "contact", 1.01), "");
+  EXPECT_THAT(warnings_of(plain, "contact", 0.99), HasSubstr("contact of lower and upper: the bodies overlap"));
+  EXPECT_EQ(warnings_of(plain, "barrier_contact", 1.05), "");
+  EXPECT_THAT(warnings_of(plain, "barrier_contact, gap: 0.1", 1.005), HasSubstr("far nearer than the gap"));
+  EXPECT_THAT(warnings_of(serendipity, "contact", 1.01), HasSubstr("faces of eight nodes"));
+  EXPECT_THAT(warnings_of(serendipity, "barrier_contact", 1.01), HasSubstr("faces of eight nodes"));
+  EXPECT_THAT(warnings_of(full, "contact", 1.01), Not(HasSubstr("eight nodes")));
+}
+
+}  // namespace
+}  // namespace orthodyn::assemblies_test
