@@ -25,8 +25,9 @@ concept Face = requires(Vec3 place) {
   // quadrilateral with x and y in [-1, 1], derivatives with respect to x and y.
   { F::shape(place) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 1>>;
   { F::slopes(place) } -> std::same_as<Eigen::Matrix<double, F::kNodes, 2>>;
-  // Each node's share of the area, for nodal forces such as contact: positive, with sum 1.
-  { F::kNodeShares } -> std::convertible_to<std::array<double, F::kNodes>>;
+  // Each node's share of the area, for forces at points such as those of contact. Positive; the rest of the area is
+  // that of the middle of a face of six or eight nodes (lib/fem/contact/face_middles.h).
+  { F::kPointShares } -> std::convertible_to<std::array<double, F::kNodes>>;
 };
 
 // Node positions, one column per node, m.

@@ -8,7 +8,7 @@ namespace orthodyn {
 
 struct Quad4 {
   static constexpr int kNodes = 4, kPoints = 9, kTangentPoints = 9;
-  static constexpr std::array<double, kNodes> kNodeShares{0.25, 0.25, 0.25, 0.25};
+  static constexpr std::array<double, kNodes> kPointShares{0.25, 0.25, 0.25, 0.25};
 
   static const std::array<QuadraturePoint, kPoints>& points() { return square_points_of_degree_5(); }
   static Eigen::Matrix<double, kNodes, 1> shape(const Vec3& place) {

@@ -8,11 +8,9 @@ namespace orthodyn {
 
 struct Quad8 {
   static constexpr int kNodes = 8, kPoints = 9, kTangentPoints = 9;
-  // The diagonal of the mass matrix of a parallelogram, scaled to sum 1, because the integrals of the corners' N_a are
-  // negative.
-  static constexpr double kCorner = 3.0 / 76, kMiddle = 16.0 / 76;
-  static constexpr std::array<double, kNodes> kNodeShares{kCorner, kCorner, kCorner, kCorner,
-                                                          kMiddle, kMiddle, kMiddle, kMiddle};
+  static constexpr double kCorner = 1.0 / 36, kEdge = 1.0 / 9;
+  static constexpr std::array<double, kNodes> kPointShares{kCorner, kCorner, kCorner, kCorner,
+                                                           kEdge,   kEdge,   kEdge,   kEdge};
 
   static const std::array<QuadraturePoint, kPoints>& points() { return square_points_of_degree_5(); }
   static Eigen::Matrix<double, kNodes, 1> shape(const Vec3& place) {

@@ -10,8 +10,8 @@ struct Quad9 {
   static constexpr int kNodes = 9, kPoints = 9, kTangentPoints = 9;
   // The integrals of N_a over a parallelogram of area 1: products of 1/6, 4/6, 1/6.
   static constexpr double kCorner = 1.0 / 36, kMiddle = 4.0 / 36, kCentre = 16.0 / 36;
-  static constexpr std::array<double, kNodes> kNodeShares{kCorner, kCorner, kCorner, kCorner, kMiddle,
-                                                          kMiddle, kMiddle, kMiddle, kCentre};
+  static constexpr std::array<double, kNodes> kPointShares{kCorner, kCorner, kCorner, kCorner, kMiddle,
+                                                           kMiddle, kMiddle, kMiddle, kCentre};
 
   static const std::array<QuadraturePoint, kPoints>& points() { return square_points_of_degree_5(); }
   static Eigen::Matrix<double, kNodes, 1> shape(const Vec3& place) {

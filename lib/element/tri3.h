@@ -7,7 +7,7 @@ namespace orthodyn {
 
 struct Tri3 {
   static constexpr int kNodes = 3, kPoints = 7, kTangentPoints = 1;
-  static constexpr std::array<double, kNodes> kNodeShares{1.0 / 3, 1.0 / 3, 1.0 / 3};
+  static constexpr std::array<double, kNodes> kPointShares{1.0 / 3, 1.0 / 3, 1.0 / 3};
 
   static const std::array<QuadraturePoint, kPoints>& points() { return triangular_face_points(); }
   static Vec3 shape(const Vec3& L) { return L; }

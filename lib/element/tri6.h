@@ -7,10 +7,8 @@ namespace orthodyn {
 
 struct Tri6 {
   static constexpr int kNodes = 6, kPoints = 7, kTangentPoints = 7;
-  // The diagonal of the mass matrix of a plane triangle, scaled to sum 1, because the integrals of the corners' N_a are
-  // zero.
-  static constexpr double kCorner = 1.0 / 19, kMiddle = 16.0 / 57;
-  static constexpr std::array<double, kNodes> kNodeShares{kCorner, kCorner, kCorner, kMiddle, kMiddle, kMiddle};
+  static constexpr double kCorner = 1.0 / 20, kEdge = 2.0 / 15;
+  static constexpr std::array<double, kNodes> kPointShares{kCorner, kCorner, kCorner, kEdge, kEdge, kEdge};
 
   static const std::array<QuadraturePoint, kPoints>& points() { return triangular_face_points(); }
   static Eigen::Matrix<double, kNodes, 1> shape(const Vec3& L) {

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "lib/fem/face_nodes.h"
-#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
@@ -48,23 +47,10 @@ NodalForces surface_forces(const Mesh& mesh, const std::vector<FaceCorners>& fac
                    [&](const Vec3& x) { return Vec3(traction[0].at(x), traction[1].at(x), traction[2].at(x)); });
 }
 
-std::vector<std::pair<int, double>> node_areas(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
-  return sum_over_faces<double>(mesh, faces, 0, [&]<Face F>(const FaceNodes<F>& X) {
-    return [whole = area<F>(X)](Eigen::Index a) { return whole * F::kNodeShares[static_cast<std::size_t>(a)]; };
-  });
-}
-
 double largest_area(const std::vector<std::pair<int, double>>& areas) {
   double largest = 0;
   for (const auto& [node, area] : areas) largest = std::max(largest, area);
   return largest;
-}
-
-bool has_eight_nodes(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
-  const Cells cells = face_cells(mesh, faces);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (cells.shape(k) == CellShape::quad8) return true;
-  return false;
 }
 
 }  // namespace orthodyn

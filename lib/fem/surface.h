@@ -24,12 +24,6 @@ NodalForces surface_forces(const Mesh& mesh, const std::vector<FaceCorners>& fac
 NodalForces surface_forces(const Mesh& mesh, const std::vector<FaceCorners>& faces,
                            const std::array<PointQuantity, 3>& traction);
 
-// Surface area per node (m^2, positive), for node-wise effects such as contact.
-std::vector<std::pair<int, double>> node_areas(const Mesh& mesh, const std::vector<FaceCorners>& faces);
-
-double largest_area(const std::vector<std::pair<int, double>>& areas);  // of a node, m^2; 0 without nodes
-
-// Whether one of the faces has four corners and four nodes in the middle of edges.
-bool has_eight_nodes(const Mesh& mesh, const std::vector<FaceCorners>& faces);
+double largest_area(const std::vector<std::pair<int, double>>& areas);  // m^2; 0 of none
 
 }  // namespace orthodyn

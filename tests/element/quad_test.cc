@@ -121,16 +121,9 @@ TYPED_TEST(Quadrilateral, NodeIntegralsAreThoseOfTheShapeFunctionsTimesTheField)
     }
 }
 
-TEST(Quad8, NodeSharesAreTheScaledDiagonalOfItsMass) {
-  Eigen::Matrix<double, 8, 1> diagonal = Eigen::Matrix<double, 8, 1>::Zero();
-  for (const auto& [place, weight] : square_points_of_degree_5()) diagonal += weight * Quad8::shape(place).cwiseAbs2();
-  for (int a = 0; a < 8; ++a)
-    EXPECT_NEAR(Quad8::kNodeShares[static_cast<std::size_t>(a)], diagonal[a] / diagonal.sum(), 1e-14);
-}
-
-TEST(Quad9, NodeSharesAreTheIntegralsOfTheShapeFunctions) {
+TEST(Quad9, PointSharesAreTheIntegralsOfTheShapeFunctions) {
   const auto integrals = node_integrals<Quad9>(square<Quad9>(), [](const Vec3&) { return Scalar(0.25); });
-  for (int a = 0; a < 9; ++a) EXPECT_NEAR(Quad9::kNodeShares[static_cast<std::size_t>(a)], integrals(a), 1e-14);
+  for (int a = 0; a < 9; ++a) EXPECT_NEAR(Quad9::kPointShares[static_cast<std::size_t>(a)], integrals(a), 1e-14);
 }
 
 // Faces with nodes on the sixth of the unit sphere that a cube's face is projected to. The error of the area is of

@@ -55,13 +55,6 @@ TEST(Tri6, SharesOfAPlaneFaceGoToTheMiddles) {
   for (int a = 0; a < 6; ++a) EXPECT_NEAR(integrals(a), a < 3 ? 0 : 1, 1e-14);
 }
 
-TEST(Tri6, NodeSharesAreTheScaledDiagonalOfItsMass) {
-  Eigen::Matrix<double, 6, 1> diagonal = Eigen::Matrix<double, 6, 1>::Zero();
-  for (const auto& [L, weight] : triangle_points_of_degree_5()) diagonal += weight * Tri6::shape(L).cwiseAbs2();
-  for (int a = 0; a < 6; ++a)
-    EXPECT_NEAR(Tri6::kNodeShares[static_cast<std::size_t>(a)], diagonal[a] / diagonal.sum(), 1e-14);
-}
-
 TEST(Tri6, SlopesAreThoseOfTheShapeFunctions) {
   const Vec3 L(0.2, 0.3, 0.5);
   for (int i = 0; i < 2; ++i) {

@@ -183,7 +183,7 @@ TEST(NearFeatures, CountAPlaneSurfaceOnce) {
     x.col(n) = place;
     double energy = 0, area = 0;
     for (const NearPlace& near : NearFeatures(plane, other, kGap).at(x))
-      if (near.parallel == 0 && near.nodes[0] == n) {
+      if (near.parallel == 0 && near.points[0] == n) {
         energy += near.area * barrier(near.distance.r / kGap);
         area += near.area;
       }
@@ -208,7 +208,7 @@ TEST(NearFeatures, SeeBothSidesOfANotch) {
     x.col(5) = place;
     int sides = 0;
     for (const NearPlace& near : NearFeatures(notch, other, kGap).at(x))
-      sides += near.parallel == 0 && near.nodes[0] == 5 && near.area > 0;
+      sides += near.parallel == 0 && near.points[0] == 5 && near.area > 0;
     return sides;
   };
   EXPECT_EQ(count({0.5, 0, 0.1}), 2);

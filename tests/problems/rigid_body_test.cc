@@ -115,6 +115,7 @@ mesh:
 materials: {{m: {{type: isotropic, density: 500, young: 1e9, nu: 0.3}}}}
 regions: {{{}}}
 joints: [{{type: fixed, name: weld, at: [0, 0, 0], first: {{surface: left.x1}}, second: {{surface: right.x0}}}}]
+mass: consistent
 damping: {{stiffness: 1e-4}}
 initial: {{spin: [0.02, 4, 0]}}
 time: {{end: {}}}

@@ -11,7 +11,6 @@ namespace orthodyn::assemblies_test {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 // A rigid bar swings about a hinge and hits a soft block.
 const char* const kGong = R"(
@@ -79,16 +78,12 @@ integrator: {{type: ida_bdf}}
   return words;
 }
 
-TEST(ContactChecks, TellOfOverlapsAndOfFacesOfEightNodes) {
-  const std::string plain = "elements: hexahedra, order: 1", serendipity = "elements: hexahedra",
-                    full = "elements: hexahedra_27";
+TEST(ContactChecks, TellOfOverlaps) {
+  const std::string plain = "elements: hexahedra, order: 1";
   EXPECT_EQ(warnings_of(plain, "contact", 1.01), "");
   EXPECT_THAT(warnings_of(plain, "contact", 0.99), HasSubstr("contact of lower and upper: the bodies overlap"));
   EXPECT_EQ(warnings_of(plain, "barrier_contact", 1.05), "");
   EXPECT_THAT(warnings_of(plain, "barrier_contact, gap: 0.1", 1.005), HasSubstr("far nearer than the gap"));
-  EXPECT_THAT(warnings_of(serendipity, "contact", 1.01), HasSubstr("faces of eight nodes"));
-  EXPECT_THAT(warnings_of(serendipity, "barrier_contact", 1.01), HasSubstr("faces of eight nodes"));
-  EXPECT_THAT(warnings_of(full, "contact", 1.01), Not(HasSubstr("eight nodes")));
 }
 
 }  // namespace

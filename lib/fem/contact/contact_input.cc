@@ -23,13 +23,22 @@ std::vector<FaceCorners> outer_faces(const Mesh& mesh, int region) {
   return out;
 }
 
+void remove_repeated(NodePairs& pairs) {
+  for (auto& [a, b] : pairs)
+    if (a > b) std::swap(a, b);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
 }  // namespace
 
-ContactSurface contact_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin) {
+ContactSurface contact_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin,
+                               std::optional<int> first_middle) {
   const auto& regions = mesh.region_names;
   const auto region = std::find(regions.begin(), regions.end(), name);
-  if (mesh.surfaces.contains(name) || region == regions.end()) return {mesh, find_surface(mesh, name, origin)};
-  return {mesh, outer_faces(mesh, static_cast<int>(region - regions.begin()))};
+  if (mesh.surfaces.contains(name) || region == regions.end())
+    return {mesh, find_surface(mesh, name, origin), first_middle};
+  return {mesh, outer_faces(mesh, static_cast<int>(region - regions.begin())), first_middle};
 }
 
 void require_apart(const ContactSurface& first, const ContactSurface& second, const std::array<std::string, 2>& names,
@@ -45,19 +54,31 @@ void require_apart(const ContactSurface& first, const ContactSurface& second, co
 NodePairs contact_couplings(const Mesh& mesh, const ContactSurface& first, const ContactSurface& second,
                             std::optional<double> slide, const SourceLocation& origin) {
   constexpr std::size_t kMost = 1'000'000;
+  const FaceMiddles middles = joined(first, second);
+  const auto place = [&](int point) {
+    Vec3 sum = Vec3::Zero();
+    middles.for_each_node(point, [&](int node, double weight) { sum += weight * mesh.node(node); });
+    return sum;
+  };
   const bool is_one = &first == &second;
   NodePairs pairs;
   for (const auto& [a, area_of_a] : first.areas())
     for (const auto& [b, area_of_b] : second.areas()) {
       if (is_one && a >= b) continue;
-      if (slide && (mesh.node(a) - mesh.node(b)).norm() > *slide) continue;
-      pairs.emplace_back(a, b);
+      if (slide && (place(a) - place(b)).norm() > *slide) continue;
+      middles.for_each_node(a, [&, b = b](int of_a, double) {
+        middles.for_each_node(b, [&](int of_b, double) {
+          if (of_a != of_b) pairs.emplace_back(of_a, of_b);
+        });
+      });
+      if (pairs.size() > kMost && !middles.empty()) remove_repeated(pairs);
       if (pairs.size() > kMost)
         origin.fail(
             fmt::format("more than {} pairs of nodes may touch: give `slide`, the largest distance at rest of "
                         "nodes that touch later, or smaller surfaces",
                         kMost));
     }
+  if (!middles.empty()) remove_repeated(pairs);
   return pairs;
 }
 

@@ -12,7 +12,9 @@
 namespace orthodyn {
 
 // The surface with this name, or the whole outer surface of the region with this name. Throws ConfigError at `origin`.
-ContactSurface contact_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin);
+// The middles of its faces are numbered from `first_middle` on, by default after the nodes.
+ContactSurface contact_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin,
+                               std::optional<int> first_middle = {});
 
 // Throws ConfigError if two surfaces share nodes.
 void require_apart(const ContactSurface& first, const ContactSurface& second, const std::array<std::string, 2>& names,

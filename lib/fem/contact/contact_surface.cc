@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "lib/fem/surface.h"
+#include "lib/fem/face_nodes.h"
 #include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/quadratic.h"
 
@@ -14,18 +14,17 @@ namespace orthodyn {
 
 namespace {
 
-// The triangles of a face, as indices of its nodes.
+// The triangles of a face, as indices of its nodes, and of its middle after these.
 const std::vector<std::array<int, 3>>& triangles_of(CellShape shape) {
   static const std::vector<std::array<int, 3>> tri3{{0, 1, 2}};
-  static const std::vector<std::array<int, 3>> tri6{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  static const std::vector<std::array<int, 3>> tri7{{0, 3, 6}, {3, 1, 6}, {1, 4, 6}, {4, 2, 6}, {2, 5, 6}, {5, 0, 6}};
   static const std::vector<std::array<int, 3>> quad4{{0, 1, 2}, {0, 2, 3}};
-  static const std::vector<std::array<int, 3>> quad8{{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 7}, {5, 6, 7}};
   static const std::vector<std::array<int, 3>> quad9{{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8},
                                                      {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}};
   switch (shape) {
-    case CellShape::tri6: return tri6;
+    case CellShape::tri6: return tri7;
     case CellShape::quad4: return quad4;
-    case CellShape::quad8: return quad8;
+    case CellShape::quad8:
     case CellShape::quad9: return quad9;
     default: return tri3;
   }
@@ -42,22 +41,30 @@ double angle_at(const Triangle& t, int k) {
 // The least volume of a cell over the area of its face, times 3 for tetrahedra, whose other corner is above the face.
 double least_height(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
   const std::vector<MeshFace> all = sorted_faces(mesh);
+  std::vector<double> areas;
+  for_each_face(mesh, faces, [&]<Face F>(std::span<const int>, const FaceNodes<F>& X) { areas.push_back(area<F>(X)); });
   double least = std::numeric_limits<double>::infinity();
-  for (const FaceCorners& face : faces) {
-    const auto [begin, end] = find_faces(all, face);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto [begin, end] = find_faces(all, faces[i]);
     for (std::size_t k = begin; k < end; ++k) {
       const auto cell = static_cast<std::size_t>(all[k].cell);
       const CellShape shape = mesh.cells.shape(cell);
       const double times = shape == CellShape::tet4 || shape == CellShape::tet10 ? 3 : 1;
-      least = std::min(least, times * cell_volume(mesh, cell) / surface_area(mesh, {face}));
+      least = std::min(least, times * cell_volume(mesh, cell) / areas[i]);
     }
   }
   return least;
 }
 
-Triangle at_rest(const Mesh& mesh, const ContactSurface::Corners& nodes) {
+NodalVector nodes_at_rest(const Mesh& mesh) {
+  NodalVector out(3, std::ssize(mesh.nodes));
+  for (Eigen::Index i = 0; i < out.cols(); ++i) out.col(i) = mesh.node(static_cast<int>(i));
+  return out;
+}
+
+Triangle at_rest(const NodalVector& rest, const ContactSurface::Corners& points) {
   Triangle out;
-  out << mesh.node(nodes[0]), mesh.node(nodes[1]), mesh.node(nodes[2]);
+  out << rest.col(points[0]), rest.col(points[1]), rest.col(points[2]);
   return out;
 }
 
@@ -71,37 +78,41 @@ double sharpness_between(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces)
-    : areas_(node_areas(mesh, faces)),
-      thickness_(least_height(mesh, faces)),
-      has_faces_of_eight_nodes_(has_eight_nodes(mesh, faces)) {
+ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces, std::optional<int> first_middle)
+    : middles_(first_middle.value_or(static_cast<int>(mesh.nodes.size()))),
+      areas_(contact_areas(mesh, faces, middles_)),
+      thickness_(least_height(mesh, faces)) {
   const Cells cells = face_cells(mesh, faces);
+  int middle = first_middle.value_or(static_cast<int>(mesh.nodes.size()));
   std::map<std::pair<int, int>, std::vector<std::size_t>> uses;  // triangles of an edge
-  double sum = 0;
-  for (std::size_t k = 0; k < cells.size(); ++k)
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    std::vector<int> points(cells[k].begin(), cells[k].end());
+    if (points.size() == 6 || points.size() == 8) points.push_back(middle++);
     for (const auto& corners : triangles_of(cells.shape(k))) {
-      Corners nodes;
-      for (std::size_t c = 0; c < 3; ++c) nodes[c] = cells[k][static_cast<std::size_t>(corners[c])];
-      triangles_.push_back(nodes);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int a = nodes[c], b = nodes[(c + 1) % 3];
-        uses[{std::min(a, b), std::max(a, b)}].push_back(triangles_.size() - 1);
-        sum += (mesh.node(a) - mesh.node(b)).norm();
-      }
+      Corners& of = triangles_.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) of[c] = points[static_cast<std::size_t>(corners[c])];
+      for (std::size_t c = 0; c < 3; ++c) uses[std::minmax(of[c], of[(c + 1) % 3])].push_back(triangles_.size() - 1);
     }
-  mean_edge_ = sum / (3 * static_cast<double>(triangles_.size()));
+  }
+  NodalVector storage;
+  const NodalVector nodes = nodes_at_rest(mesh);
+  const NodalVector& rest = middles_.values(nodes, storage);
+  double sum = 0;
   const std::map<int, double> area_of(areas_.begin(), areas_.end());
   for (const auto& [edge, of] : uses) {
     const auto& [a, b] = edge;
+    const double length = (rest.col(a) - rest.col(b)).norm();
     const double sharpness =
-        of.size() == 2 ? sharpness_between(at_rest(mesh, triangles_[of[0]]), at_rest(mesh, triangles_[of[1]])) : 1;
-    edges_.push_back({{a, b}, (area_of.at(a) + area_of.at(b)) / 2, (mesh.node(a) - mesh.node(b)).norm(), sharpness});
+        of.size() == 2 ? sharpness_between(at_rest(rest, triangles_[of[0]]), at_rest(rest, triangles_[of[1]])) : 1;
+    edges_.push_back({{a, b}, (area_of.at(a) + area_of.at(b)) / 2, length, sharpness});
+    sum += static_cast<double>(of.size()) * length;
     if (of.size() == 1) {
       boundary_edges_.insert(edge);
       boundary_nodes_.insert(edge.first);
       boundary_nodes_.insert(edge.second);
     }
   }
+  mean_edge_ = sum / (3 * static_cast<double>(triangles_.size()));
 }
 
 bool ContactSurface::is_on_boundary(const Corners& triangle, const Vec3& L) const {
@@ -121,6 +132,12 @@ Eigen::AlignedBox3d ContactSurface::box(const NodalVector& x) const {
 std::size_t ContactSurface::bytes() const {
   return areas_.capacity() * sizeof(areas_[0]) + triangles_.capacity() * sizeof(Corners) +
          edges_.capacity() * sizeof(Edge);
+}
+
+FaceMiddles joined(const ContactSurface& first, const ContactSurface& second) {
+  FaceMiddles all = first.middles();
+  all.append(second.middles());
+  return all;
 }
 
 PlacedSurface::PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach)
@@ -147,9 +164,9 @@ Triangle PlacedSurface::corners(int triangle) const {
   return out;
 }
 
-std::optional<Touch> PlacedSurface::touch_of(int node, AtBoundary boundary) const {
+std::optional<Touch> PlacedSurface::touch_of(int point, AtBoundary boundary) const {
   constexpr double kSame = 1e-9;  // distances of triangles that share the nearest point, relative to the reach
-  const Vec3 x = x_.col(node);
+  const Vec3 x = x_.col(point);
   if (!((x - low_).minCoeff() >= -reach_ && (high_ - x).minCoeff() >= -reach_)) return std::nullopt;
   struct Found {
     double r;
@@ -194,7 +211,7 @@ std::optional<Touch> PlacedSurface::touch_of(int node, AtBoundary boundary) cons
     const Vec3 foot = foot_on_plane(x, t);
     const double depth = (x - t.col(0)).dot(inward);
     if (foot.minCoeff() < -kBeside || !(depth > 0 && depth <= reach_)) return std::nullopt;
-    Touch touch{node, nodes, distance_of(x, t, foot, true)};
+    Touch touch{point, nodes, distance_of(x, t, foot, true)};
     touch.distance.n = inward;
     touch.distance.r = depth;
     return touch;
@@ -202,7 +219,7 @@ std::optional<Touch> PlacedSurface::touch_of(int node, AtBoundary boundary) cons
   const Vec3 y = x - t * nearest->L;
   if (!(y.dot(normal) < 0)) return std::nullopt;
   const bool is_inside = nearest->L.minCoeff() > 0;  // then the normal has more digits than y
-  Touch touch{node, nodes, distance_of(x, t, nearest->L)};
+  Touch touch{point, nodes, distance_of(x, t, nearest->L)};
   if (is_inside) touch.distance.n = inward;
   return touch;
 }

@@ -1,5 +1,6 @@
-// A surface that touches another one: its nodes with their areas, and triangles between its nodes. Triangles of a
-// quadratic face also have the nodes in the middle of edges and of quadrilaterals as corners.
+// A surface that touches another one: its points with their areas, and triangles between them. Triangles of a
+// quadratic face also have the nodes in the middle of edges and of quadrilaterals as corners, or its middle
+// (face_middles.h). Positions and velocities are those of all points.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "lib/fem/contact/distance.h"
+#include "lib/fem/contact/face_middles.h"
 #include "lib/fem/nodal_vector.h"
 #include "lib/mesh/mesh.h"
 
@@ -25,14 +27,14 @@ class ContactSurface {
     double sharpness;          // at rest, from 0 between triangles of one plane or in a notch to 1 at 30 degrees
   };
 
-  ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces);
+  // The middles of faces are numbered from `first_middle` on, by default after the nodes.
+  ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>& faces, std::optional<int> first_middle = {});
 
-  const std::vector<std::pair<int, double>>& areas() const { return areas_; }  // node, m^2
+  const std::vector<std::pair<int, double>>& areas() const { return areas_; }  // point, m^2
+  const FaceMiddles& middles() const { return middles_; }
   const std::vector<Corners>& triangles() const { return triangles_; }
   const std::vector<Edge>& edges() const { return edges_; }  // of all triangles
   double mean_edge() const { return mean_edge_; }            // of the triangles at rest, m
-
-  bool has_faces_of_eight_nodes() const { return has_faces_of_eight_nodes_; }
 
   double thickness() const { return thickness_; }  // the least height of a cell at the surface, at rest, m
 
@@ -45,23 +47,26 @@ class ContactSurface {
   std::size_t bytes() const;
 
  private:
+  FaceMiddles middles_;
   std::vector<std::pair<int, double>> areas_;
   std::vector<Corners> triangles_;
   std::vector<Edge> edges_;
   std::set<std::pair<int, int>> boundary_edges_;  // node pairs, ascending
   std::set<int> boundary_nodes_;
   double mean_edge_ = 0, thickness_ = 0;
-  bool has_faces_of_eight_nodes_ = false;
 };
 
-// A node below a surface: its nearest point has a depth. `distance.n` points into the body, from the surface to the
-// node.
+// The middles of both surfaces; those of the second one are numbered after those of the first.
+FaceMiddles joined(const ContactSurface& first, const ContactSurface& second);
+
+// A point below a surface: its nearest place there has a depth. `distance.n` points into the body, from the surface to
+// the point.
 struct Touch {
-  int node;
+  int point;
   ContactSurface::Corners triangle;
   Distance distance;
 
-  std::array<int, 4> nodes() const { return {node, triangle[0], triangle[1], triangle[2]}; }
+  std::array<int, 4> points() const { return {point, triangle[0], triangle[1], triangle[2]}; }
 };
 
 // The triangles of a surface at the positions x, for searches.
@@ -70,10 +75,10 @@ class PlacedSurface {
   // Both arguments must outlive this object. Finds touches up to the depth `reach` (m).
   PlacedSurface(const ContactSurface& surface, const NodalVector& x, double reach);
 
-  // The nearest point of the surface to a node that lies below the surface; empty for other nodes, and for nodes beside
-  // an open surface. Nodes below its boundary touch, or are left out.
+  // The nearest place of the surface to a point that lies below the surface; empty for other points, and for those
+  // beside an open surface. Points below its boundary touch, or are left out.
   enum class AtBoundary { touches, left_out };
-  std::optional<Touch> touch_of(int node, AtBoundary boundary = AtBoundary::touches) const;
+  std::optional<Touch> touch_of(int point, AtBoundary boundary = AtBoundary::touches) const;
 
  private:
   struct Placed {

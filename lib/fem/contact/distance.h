@@ -22,8 +22,8 @@ struct Distance {
   Eigen::Matrix<double, 3, 4> z;                                 // m
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 2> moves = {};  // derivatives of the shares by m
 
-  // False for a node that has no part in the distance, as the third corner of a triangle whose edge is nearest.
-  bool has_node(int k) const { return share[k] != 0 || (moves.cols() > 0 && !moves.row(k).isZero(0)); }
+  // False for a point that has no part in the distance, as the third corner of a triangle whose edge is nearest.
+  bool has_point(int k) const { return share[k] != 0 || (moves.cols() > 0 && !moves.row(k).isZero(0)); }
 
   Vec12 gradient() const;
   Mat12 second_derivative() const;  // m

@@ -298,7 +298,7 @@ std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   if (first) add_nodes(second_, *first, region, gap_, out);
   add_edges(first_, second_, x, region, gap_, out);
   for (const NearPlace& place : out)
-    if (!(place.distance.r > 0)) throw RecoverableError(fmt::format("surfaces touch at node {}", place.nodes[0]));
+    if (!(place.distance.r > 0)) throw RecoverableError(fmt::format("surfaces touch at node {}", place.points[0]));
   return out;
 }
 

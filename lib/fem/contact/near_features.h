@@ -15,14 +15,14 @@
 namespace orthodyn {
 
 struct NearPlace {
-  std::array<int, 4> nodes;  // a node and the corners of a triangle, or the ends of two edges
+  std::array<int, 4> points;  // a point and the corners of a triangle, or the ends of two edges
   Distance distance;
   double area;          // m^2, negative for distances that are counted too often
   double parallel = 0;  // for edges: the sine of their angle, squared, times their squared lengths at rest, m^4,
                         // below which they count less. 0: not edges
 
-  // Whether energies depend on the position of a node: those of edges also on their angle.
-  bool has_node(int k) const { return parallel > 0 || distance.has_node(k); }
+  // Whether energies depend on the position of a point: those of edges also on their angle.
+  bool has_point(int k) const { return parallel > 0 || distance.has_point(k); }
 };
 
 // The surfaces must outlive this object, and may be the same one.

@@ -16,8 +16,8 @@
 #include "lib/fem/contact/edge_weight.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/near_features.h"
-#include "lib/fem/contact/node_blocks.h"
 #include "lib/fem/contact/passing_time.h"
+#include "lib/fem/contact/point_blocks.h"
 #include "lib/fem/contact/remembered_places.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
@@ -25,14 +25,14 @@
 namespace orthodyn {
 namespace {
 
-// The largest distance at rest (m) of nodes of both surfaces that a place couples.
+// The largest distance at rest (m) of points of both surfaces that a place couples.
 double farthest_apart(const NearPlace& place, const NodalVector& rest) {
-  const std::size_t of_first = place.parallel > 0 ? 2 : 1;  // both ends of an edge, or a node
+  const std::size_t of_first = place.parallel > 0 ? 2 : 1;  // both ends of an edge, or a point
   double apart = 0;
   for (std::size_t i = 0; i < of_first; ++i)
     for (std::size_t j = of_first; j < 4; ++j)
-      if (place.has_node(static_cast<int>(i)) && place.has_node(static_cast<int>(j)))
-        apart = std::max(apart, (rest.col(place.nodes[i]) - rest.col(place.nodes[j])).norm());
+      if (place.has_point(static_cast<int>(i)) && place.has_point(static_cast<int>(j)))
+        apart = std::max(apart, (rest.col(place.points[i]) - rest.col(place.points[j])).norm());
   return apart;
 }
 
@@ -53,46 +53,50 @@ class BarrierContact : public Term, public Contact {
         first_(std::move(first)),
         second_(std::move(second)),
         near_(first_, second_ ? *second_ : first_, law.gap),
+        middles_(second_ ? joined(first_, *second_) : first_.middles()),
         pattern_(pattern) {
-    if (law.slide) rest_ = rest;
+    if (law.slide) rest_ = NodalVector(middles_.values(rest, rest_));
   }
   BarrierContact(const BarrierContact&) = delete;
   BarrierContact& operator=(const BarrierContact&) = delete;
 
   std::string name() const override { return name_; }
   std::string description() const override {
-    return fmt::format("{}: {} nodes, {:.6g} Pa/m, gap {:.4g} m", name_,
+    return fmt::format("{}: {} points, {:.6g} Pa/m, gap {:.4g} m", name_,
                        first_.areas().size() + (second_ ? second_->areas().size() : 0), law_.stiffness, law_.gap);
   }
   std::size_t bytes() const override { return first_.bytes() + (second_ ? second_->bytes() : 0); }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    const auto all = places(s.x);
+    const PointState at(middles_, s, law_.friction.acts());
+    const auto all = places(at.x);
     for (const NearPlace& place : *all) {
       const EdgeWeight weight = weight_of(place);
       Vec3 force = pressing(place, weight) * place.distance.n;
       if (law_.friction.acts())
-        force += law_.friction.force(relative_velocity(place.distance, place.nodes, s.v), place.distance.n,
+        force += law_.friction.force(relative_velocity(place.distance, place.points, at.v), place.distance.n,
                                      pressing(place, weight));
-      add_pair_of_forces(place.distance, place.nodes, force, f);
+      add_pair_of_forces(middles_, place.distance, place.points, force, f);
       if (weight.slope == 0) continue;
       const Vec12 turn = -energy_of(place) * weight.slope * CrossProduct(place.distance.z).gradient;
-      for (int k = 0; k < 4; ++k) f.col(place.nodes[static_cast<std::size_t>(k)]) += turn.segment<3>(3 * k);
+      for (int k = 0; k < 4; ++k)
+        add_force_at(middles_, place.points[static_cast<std::size_t>(k)], turn.segment<3>(3 * k), f);
     }
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
-    const auto all = places(s.x);
+    const PointState at(middles_, s, law_.friction.acts());
+    const auto all = places(at.x);
     for (const NearPlace& place : *all) {
       const EdgeWeight weight = weight_of(place);
       const Mat12 K = kind == TangentKind::exact ? exact(place, weight) : definite(place, weight);
       const auto add = [&](const auto& block, double* values) {
-        add_blocks(pattern_, place, place.nodes, block, values);
+        add_blocks(pattern_, middles_, place, place.points, block, values);
       };
       add([&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); }, stiffness);
       if (!law_.friction.acts() || !damping) continue;
       const Eigen::Vector4d& share = place.distance.share;
-      const Mat3 D = law_.friction.damping(relative_velocity(place.distance, place.nodes, s.v), place.distance.n,
+      const Mat3 D = law_.friction.damping(relative_velocity(place.distance, place.points, at.v), place.distance.n,
                                            pressing(place, weight));
       add([&](int i, int j) { return share[i] * share[j] * D; }, damping);
     }
@@ -100,10 +104,11 @@ class BarrierContact : public Term, public Contact {
 
   double dissipation(const NodalState& s) const override {
     if (!law_.friction.acts()) return 0;
+    const PointState at(middles_, s, true);
     double sum = 0;
-    const auto all = places(s.x);
+    const auto all = places(at.x);
     for (const NearPlace& place : *all) {
-      const Vec3 velocity = relative_velocity(place.distance, place.nodes, s.v);
+      const Vec3 velocity = relative_velocity(place.distance, place.points, at.v);
       sum -= velocity.dot(law_.friction.force(velocity, place.distance.n, pressing(place, weight_of(place))));
     }
     return sum;
@@ -114,8 +119,9 @@ class BarrierContact : public Term, public Contact {
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
   double energy(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
     double sum = 0;
-    const auto all = places(s.x);
+    const auto all = places(at.x);
     for (const NearPlace& place : *all) sum += weight_of(place).value * energy_of(place);
     return sum;
   }
@@ -125,7 +131,11 @@ class BarrierContact : public Term, public Contact {
     const double k = law_.stiffness * barrier_curvature(0.5);
     const ContactSurface& second = second_ ? *second_ : first_;
     for (const auto& [own, other] : {std::pair(&first_, &second), std::pair(&second, &first_)})
-      for (const auto& [node, area] : own->areas()) row_sums[node] += k * (7 * area + largest_area(other->areas()));
+      for (const auto& [point, area] : own->areas())
+        middles_.for_each_node(point, [&, p = point, of_point = area, of_other = other](int node, double weight) {
+          row_sums[node] +=
+              k * std::abs(weight) * middles_.sum_of_weights(p) * (7 * of_point + largest_area(of_other->areas()));
+        });
   }
 
   const Contact* contact() const override { return this; }
@@ -137,20 +147,18 @@ class BarrierContact : public Term, public Contact {
   }
 
   double pressed_depth(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
     double least = 1;
-    const auto all = places(s.x);
+    const auto all = places(at.x);
     for (const NearPlace& place : *all) least = std::min(least, relative(place));
     return -law_.gap * barrier_slope(least);
-  }
-
-  bool has_faces_of_eight_nodes() const override {
-    return first_.has_faces_of_eight_nodes() || (second_ && second_->has_faces_of_eight_nodes());
   }
 
   // States in which surfaces cross are refused: a node may go half of the way through a body.
   double longest_step(const NodalState& s) const override {
     const ContactSurface& other = second_ ? *second_ : first_;
-    return passing_time(first_, other, std::min(first_.thickness(), other.thickness()) / 2, s.x, s.v);
+    const PointState at(middles_, s, true);
+    return passing_time(first_, other, std::min(first_.thickness(), other.thickness()) / 2, at.x, at.v);
   }
 
  private:
@@ -224,6 +232,7 @@ class BarrierContact : public Term, public Contact {
   ContactSurface first_;
   std::optional<ContactSurface> second_;
   NearFeatures near_;
+  FaceMiddles middles_;
   RememberedPlaces remembered_;
   NodalVector rest_;  // m; empty without `slide`
   const BlockPattern& pattern_;
@@ -261,7 +270,7 @@ class BarrierContactChoice : public TermChoice {
     ContactSurface first = contact_surface(body.mesh, between_[0], origin);
     std::optional<ContactSurface> second;
     if (!is_of_one()) {
-      second = contact_surface(body.mesh, between_[1], origin);
+      second = contact_surface(body.mesh, between_[1], origin, first.middles().end());
       require_apart(first, *second, between_, origin);
     }
     const BarrierLaw law{
@@ -274,7 +283,8 @@ class BarrierContactChoice : public TermChoice {
   NodePairs couplings(const Mesh& mesh) const override {
     const ContactSurface first = contact_surface(mesh, between_[0], origin);
     if (is_of_one()) return contact_couplings(mesh, first, first, slide_, origin);
-    return contact_couplings(mesh, first, contact_surface(mesh, between_[1], origin), slide_, origin);
+    return contact_couplings(mesh, first, contact_surface(mesh, between_[1], origin, first.middles().end()), slide_,
+                             origin);
   }
 
   void declare(Traits& traits) const override {
@@ -288,7 +298,9 @@ class BarrierContactChoice : public TermChoice {
   bool is_of_one() const { return between_[0] == between_[1]; }
 
   // The gap, m. The surfaces must not cross or touch at rest, and those of one body must be farther apart than the gap.
-  double allowed_gap(const ContactSurface& first, const ContactSurface& second, const NodalVector& rest) const {
+  double allowed_gap(const ContactSurface& first, const ContactSurface& second, const NodalVector& nodes) const {
+    NodalVector storage;
+    const NodalVector& rest = (is_of_one() ? first.middles() : joined(first, second)).values(nodes, storage);
     constexpr double kOfEdge = 0.05;
     const double usual = kOfEdge * std::min(first.mean_edge(), second.mean_edge());
     const double searched = gap_.value_or(2 * usual);

@@ -10,9 +10,9 @@
 
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/friction.h"
-#include "lib/fem/contact/node_blocks.h"
 #include "lib/fem/contact/passing_time.h"
 #include "lib/fem/contact/penalty.h"
+#include "lib/fem/contact/point_blocks.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 
@@ -32,52 +32,61 @@ class BodyContact : public Term, public Contact {
   // The pattern must outlive the term.
   BodyContact(std::string name, const ContactLaw& law, ContactSurface first, ContactSurface second,
               const NodalVector& rest, const BlockPattern& pattern)
-      : name_(std::move(name)), law_(law), first_(std::move(first)), second_(std::move(second)), pattern_(pattern) {
-    if (law.slide) rest_ = rest;
+      : name_(std::move(name)),
+        law_(law),
+        first_(std::move(first)),
+        second_(std::move(second)),
+        middles_(joined(first_, second_)),
+        pattern_(pattern) {
+    if (law.slide) rest_ = NodalVector(middles_.values(rest, rest_));
   }
 
   std::string name() const override { return name_; }
   std::string description() const override {
-    return fmt::format("{}: {} and {} nodes, {:.6g} Pa/m", name_, first_.areas().size(), second_.areas().size(),
+    return fmt::format("{}: {} and {} points, {:.6g} Pa/m", name_, first_.areas().size(), second_.areas().size(),
                        law_.stiffness);
   }
   std::size_t bytes() const override { return first_.bytes() + second_.bytes(); }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for_each_touch(s.x, [&](const Touch& touch, double stiffness) {
+    const PointState at(middles_, s, law_.friction.acts());
+    for_each_touch(at.x, [&](const Touch& touch, double stiffness) {
       const Distance& distance = touch.distance;
       Vec3 force = -pressing(touch, stiffness) * distance.n;
       if (law_.friction.acts())
-        force += law_.friction.force(relative_velocity(distance, touch.nodes(), s.v), distance.n,
+        force += law_.friction.force(relative_velocity(distance, touch.points(), at.v), distance.n,
                                      pressing(touch, stiffness));
-      add_pair_of_forces(distance, touch.nodes(), force, f);
+      add_pair_of_forces(middles_, distance, touch.points(), force, f);
     });
   }
 
   // TangentKind::gauss_newton leaves out the second derivative of the distance.
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override {
-    for_each_touch(s.x, [&](const Touch& touch, double k) {
+    const PointState at(middles_, s, law_.friction.acts());
+    for_each_touch(at.x, [&](const Touch& touch, double k) {
       const double d = touch.distance.r;
       const Vec12 slope = touch.distance.gradient();
       Mat12 K = k * penalty_curvature(d, law_.onset) * slope * slope.transpose();
       if (kind == TangentKind::exact) K += k * penalty_slope(d, law_.onset) / d * touch.distance.second_derivative();
-      const FourNodes nodes = touch.nodes();
+      const FourPoints points = touch.points();
       add_blocks(
-          pattern_, touch.distance, nodes, [&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); }, stiffness);
+          pattern_, middles_, touch.distance, points, [&](int i, int j) { return K.block<3, 3>(3 * i, 3 * j); },
+          stiffness);
       if (!law_.friction.acts() || !damping) return;
       const Eigen::Vector4d& share = touch.distance.share;
       const Mat3 D =
-          law_.friction.damping(relative_velocity(touch.distance, nodes, s.v), touch.distance.n, pressing(touch, k));
+          law_.friction.damping(relative_velocity(touch.distance, points, at.v), touch.distance.n, pressing(touch, k));
       add_blocks(
-          pattern_, touch.distance, nodes, [&](int i, int j) { return share[i] * share[j] * D; }, damping);
+          pattern_, middles_, touch.distance, points, [&](int i, int j) { return share[i] * share[j] * D; }, damping);
     });
   }
 
   double dissipation(const NodalState& s) const override {
     if (!law_.friction.acts()) return 0;
+    const PointState at(middles_, s, true);
     double sum = 0;
-    for_each_touch(s.x, [&](const Touch& touch, double k) {
-      const Vec3 velocity = relative_velocity(touch.distance, touch.nodes(), s.v);
+    for_each_touch(at.x, [&](const Touch& touch, double k) {
+      const Vec3 velocity = relative_velocity(touch.distance, touch.points(), at.v);
       sum -= velocity.dot(law_.friction.force(velocity, touch.distance.n, pressing(touch, k)));
     });
     return sum;
@@ -88,18 +97,22 @@ class BodyContact : public Term, public Contact {
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
   double energy(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
     double sum = 0;
-    for_each_touch(s.x, [&](const Touch& touch, double k) { sum += k * penalty(touch.distance.r, law_.onset); });
+    for_each_touch(at.x, [&](const Touch& touch, double k) { sum += k * penalty(touch.distance.r, law_.onset); });
     return sum;
   }
 
-  // An estimate. A node in contact has the row sum 2 k A/2, with its area A. The corner of a triangle has the row sums
+  // An estimate. A point in contact has the row sum 2 k A/2, with its area A. The corner of a triangle has the row sums
   // of the nodes that press on the triangles at the corner: their area is at most about six times the area of the
   // corner, or the largest area of one node.
   void add_stiffness_bound(Vector& row_sums) const override {
     for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
       const double largest = largest_area(other->areas());
-      for (const auto& [node, area] : own->areas()) row_sums[node] += law_.stiffness * (area + 6 * area + largest);
+      for (const auto& [point, area] : own->areas())
+        middles_.for_each_node(point, [&, p = point, of_point = area](int node, double weight) {
+          row_sums[node] += law_.stiffness * std::abs(weight) * middles_.sum_of_weights(p) * (7 * of_point + largest);
+        });
     }
   }
 
@@ -111,18 +124,16 @@ class BodyContact : public Term, public Contact {
   }
 
   double pressed_depth(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
     double deepest = 0;
-    for_each_touch(s.x, [&](const Touch& touch, double) { deepest = std::max(deepest, touch.distance.r); });
+    for_each_touch(at.x, [&](const Touch& touch, double) { deepest = std::max(deepest, touch.distance.r); });
     return deepest;
   }
 
-  bool has_faces_of_eight_nodes() const override {
-    return first_.has_faces_of_eight_nodes() || second_.has_faces_of_eight_nodes();
-  }
-
   double longest_step(const NodalState& s) const override {
-    return passing_time(first_, second_, std::min({law_.reach, first_.thickness() / 2, second_.thickness() / 2}), s.x,
-                        s.v);
+    const PointState at(middles_, s, true);
+    return passing_time(first_, second_, std::min({law_.reach, first_.thickness() / 2, second_.thickness() / 2}), at.x,
+                        at.v);
   }
 
  private:
@@ -131,13 +142,13 @@ class BodyContact : public Term, public Contact {
     return stiffness * penalty_slope(touch.distance.r, law_.onset);
   }
 
-  // visit(touch, k A / 2)
+  // visit(touch, k A / 2), at the positions x of all points
   template <class Visit>
   void for_each_touch(const NodalVector& x, Visit&& visit) const {
     for (const auto& [own, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
       const PlacedSurface placed(*other, x, law_.reach);
-      for (const auto& [node, area] : own->areas())
-        if (const auto touch = placed.touch_of(node)) {
+      for (const auto& [point, area] : own->areas())
+        if (const auto touch = placed.touch_of(point)) {
           require_near(*touch);
           visit(*touch, law_.stiffness * area / 2);
         }
@@ -147,7 +158,7 @@ class BodyContact : public Term, public Contact {
   void require_near(const Touch& touch) const {
     if (!law_.slide) return;
     for (const int corner : touch.triangle)
-      if (const double apart = (rest_.col(corner) - rest_.col(touch.node)).norm(); apart > *law_.slide)
+      if (const double apart = (rest_.col(corner) - rest_.col(touch.point)).norm(); apart > *law_.slide)
         throw RecoverableError(
             fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
   }
@@ -155,6 +166,7 @@ class BodyContact : public Term, public Contact {
   std::string name_;
   ContactLaw law_;
   ContactSurface first_, second_;
+  FaceMiddles middles_;
   NodalVector rest_;  // m; empty without `slide`
   const BlockPattern& pattern_;
 };
@@ -193,7 +205,7 @@ class BodyContactChoice : public TermChoice {
   }
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
-    ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1);
+    ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1, first.middles().end());
     require_apart(first, second, between_, origin);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
     const ContactLaw law{
@@ -203,7 +215,8 @@ class BodyContactChoice : public TermChoice {
   }
 
   NodePairs couplings(const Mesh& mesh) const override {
-    return contact_couplings(mesh, surface(mesh, 0), surface(mesh, 1), slide_, origin);
+    const ContactSurface first = surface(mesh, 0);
+    return contact_couplings(mesh, first, surface(mesh, 1, first.middles().end()), slide_, origin);
   }
 
   void declare(Traits& traits) const override {
@@ -214,7 +227,9 @@ class BodyContactChoice : public TermChoice {
   SourceLocation origin;
 
  private:
-  ContactSurface surface(const Mesh& mesh, std::size_t k) const { return contact_surface(mesh, between_[k], origin); }
+  ContactSurface surface(const Mesh& mesh, std::size_t k, std::optional<int> first_middle = {}) const {
+    return contact_surface(mesh, between_[k], origin, first_middle);
+  }
 
   std::array<std::string, 2> between_;
   double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;

@@ -11,6 +11,7 @@
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/penalty.h"
+#include "lib/fem/contact/point_blocks.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 #include "lib/mesh/selection.h"
@@ -36,88 +37,96 @@ double mean_slope(double a, double b, double w) {
 
 class GroundContact : public Term, public Contact {
  public:
-  // `areas`: pairs of a node and its surface area (m^2). The pattern must outlive the term.
-  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, bool has_faces_of_eight_nodes,
+  // `areas`: pairs of a point and its surface area (m^2). The pattern must outlive the term.
+  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, FaceMiddles middles,
                 const BlockPattern& pattern)
-      : plane_(plane),
-        areas_(std::move(areas)),
-        has_faces_of_eight_nodes_(has_faces_of_eight_nodes),
-        pattern_(pattern) {}
+      : plane_(plane), areas_(std::move(areas)), middles_(std::move(middles)), pattern_(pattern) {}
 
   std::string name() const override { return "ground"; }
 
   std::string description() const override {
-    return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
+    return fmt::format("{}: {} points, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
   }
 
   std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
-    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), has_faces_of_eight_nodes_, pattern_);
+    if (!middles_.empty()) return nullptr;
+    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), middles_, pattern_);
   }
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for (const auto& [node, area] : areas_)
-      if (const double d = depth(node, s.x); d > 0) f.col(node) += pressing(d, area) * plane_.normal;
-    if (!plane_.friction.acts()) return;
-    for (const auto& [node, area] : areas_)
-      if (const double d = depth(node, s.x); d > 0)
-        f.col(node) += plane_.friction.force(s.v.col(node), plane_.normal, pressing(d, area));
+    const PointState at(middles_, s, plane_.friction.acts());
+    for_each_touch(at.x, [&](int point, double d, double area) {
+      Vec3 force = pressing(d, area) * plane_.normal;
+      if (plane_.friction.acts()) force += plane_.friction.force(at.v.col(point), plane_.normal, pressing(d, area));
+      add_force_at(middles_, point, force, f);
+    });
   }
 
   double dissipation(const NodalState& s) const override {
+    if (!plane_.friction.acts()) return 0;
+    const PointState at(middles_, s, true);
     double sum = 0;
-    for (const auto& [node, area] : areas_)
-      if (const double d = depth(node, s.x); d > 0 && plane_.friction.acts())
-        sum -= s.v.col(node).dot(plane_.friction.force(s.v.col(node), plane_.normal, pressing(d, area)));
+    for_each_touch(at.x, [&](int point, double d, double area) {
+      const Vec3 velocity = at.v.col(point);
+      sum -= velocity.dot(plane_.friction.force(velocity, plane_.normal, pressing(d, area)));
+    });
     return sum;
   }
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
-    for (const auto& [node, area] : areas_) {
-      const double mean = mean_slope(depth(node, s0.x), depth(node, s1.x), plane_.onset);
-      if (mean > 0) f.col(node) += plane_.stiffness * area * mean * plane_.normal;
+    const PointState at0(middles_, s0, false), at1(middles_, s1, false);
+    for (const auto& [point, area] : areas_) {
+      const double mean = mean_slope(depth(point, at0.x), depth(point, at1.x), plane_.onset);
+      if (mean > 0) add_force_at(middles_, point, plane_.stiffness * area * mean * plane_.normal, f);
     }
   }
 
   void add_tangent(const NodalState& s, TangentKind, double* stiffness, double* damping) const override {
+    const PointState at(middles_, s, plane_.friction.acts());
     const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
-    for (const auto& [node, area] : areas_)
-      if (const double d = depth(node, s.x); d > 0)
-        pattern_.add(node, node, pattern_.offset(node, node), area * penalty_curvature(d, plane_.onset) * across,
-                     stiffness);
-    if (!plane_.friction.acts() || !damping) return;
-    for (const auto& [node, area] : areas_)
-      if (const double d = depth(node, s.x); d > 0)
-        pattern_.add(node, node, pattern_.offset(node, node),
-                     plane_.friction.damping(s.v.col(node), plane_.normal, pressing(d, area)), damping);
+    for_each_touch(at.x, [&](int point, double d, double area) {
+      add_block_at(pattern_, middles_, point, point, area * penalty_curvature(d, plane_.onset) * across, stiffness);
+      if (!plane_.friction.acts() || !damping) return;
+      add_block_at(pattern_, middles_, point, point,
+                   plane_.friction.damping(at.v.col(point), plane_.normal, pressing(d, area)), damping);
+    });
   }
 
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
   double energy(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
     double sum = 0;
-    for (const auto& [node, area] : areas_) sum += area * penalty(depth(node, s.x), plane_.onset);
+    for_each_touch(at.x, [&](int, double d, double area) { sum += area * penalty(d, plane_.onset); });
     return plane_.stiffness * sum;
   }
 
   void add_stiffness_bound(Vector& row_sums) const override {
-    for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
+    for (const auto& [point, area] : areas_)
+      middles_.for_each_node(point, [&, p = point, of_point = area](int node, double weight) {
+        row_sums[node] += plane_.stiffness * of_point * std::abs(weight) * middles_.sum_of_weights(p);
+      });
   }
 
   const Contact* contact() const override { return this; }
 
   double range(double energy) const override { return penalty_depth(energy, plane_.stiffness * largest_area(areas_)); }
 
-  bool has_faces_of_eight_nodes() const override { return has_faces_of_eight_nodes_; }
-
  private:
-  // Normal force of a node, N.
+  // visit(point, depth, area) of the points below the plane
+  template <class Visit>
+  void for_each_touch(const NodalVector& x, Visit&& visit) const {
+    for (const auto& [point, area] : areas_)
+      if (const double d = depth(point, x); d > 0) visit(point, d, area);
+  }
+  // Normal force of a point, N.
   double pressing(double d, double area) const { return plane_.stiffness * area * penalty_slope(d, plane_.onset); }
-  double depth(int node, const NodalVector& x) const { return plane_.normal.dot(plane_.point - x.col(node)); }
+  double depth(int point, const NodalVector& x) const { return plane_.normal.dot(plane_.point - x.col(point)); }
 
   GroundPlane plane_;
   std::vector<std::pair<int, double>> areas_;
-  bool has_faces_of_eight_nodes_;
+  FaceMiddles middles_;
   const BlockPattern& pattern_;
 };
 
@@ -146,9 +155,11 @@ class GroundContactChoice : public TermChoice {
   std::unique_ptr<Term> make(const Discretization& body) const override {
     const auto faces = surface_or_all(body.mesh, surface_, origin);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
+    FaceMiddles middles(static_cast<int>(body.mesh.nodes.size()));
+    auto areas = contact_areas(body.mesh, faces, middles);
     return std::make_unique<GroundContact>(
-        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}}, node_areas(body.mesh, faces),
-        has_eight_nodes(body.mesh, faces), body.pattern);
+        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}}, std::move(areas),
+        std::move(middles), body.pattern);
   }
 
   void declare(Traits& traits) const override {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/fem/surface.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
 
@@ -102,12 +102,12 @@ void check_drift(const CheckContext& context, Warnings& out) {
 }
 
 // Nodes of the surface that can touch the ground.
-std::vector<int> touching_nodes(const Config& term, const Mesh& mesh) {
+std::set<int> touching_nodes(const Config& term, const Mesh& mesh) {
   std::optional<std::string> surface;
   if (term.has("surface") && !term.at("surface").is_null()) surface = term.at("surface").text();
-  std::vector<int> nodes;
-  for (const auto& [node, area] : node_areas(mesh, surface_or_all(mesh, surface, SourceLocation())))
-    nodes.push_back(node);
+  const Cells faces = face_cells(mesh, surface_or_all(mesh, surface, SourceLocation()));
+  std::set<int> nodes;
+  for (std::size_t k = 0; k < faces.size(); ++k) nodes.insert(faces[k].begin(), faces[k].end());
   return nodes;
 }
 
@@ -152,18 +152,6 @@ void check_overlap(const CheckContext& context, Warnings& out) {
   }
 }
 
-// Nodes in contact share the area of a face: on faces of eight nodes, this is far from the forces of a uniform
-// pressure, which are negative at corners.
-void check_faces(const CheckContext& context, Warnings& out) {
-  const FemModel::Parts& parts = context.built.model->parts();
-  for (const auto& term : parts.loads)
-    if (term->contact() && term->contact()->has_faces_of_eight_nodes())
-      warn(out, "terms",
-           "{}: contact presses unevenly on faces of eight nodes, as of hexahedra of 20 nodes: its stiffness and the "
-           "stresses near it may be wrong by any factor. Use elements: hexahedra_27, or order: 1",
-           term->name());
-}
-
 }  // namespace
 
 bool is_free(const CheckContext& context) {
@@ -180,7 +168,6 @@ void check_freedom(const CheckContext& context, Warnings& out) {
   check_drift(context, out);
   check_ground(context, out);
   check_overlap(context, out);
-  check_faces(context, out);
 }
 
 }  // namespace orthodyn::input_checks
