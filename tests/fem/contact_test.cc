@@ -239,7 +239,9 @@ TEST(Contact, IsRefusedWithTheReason) {
   EXPECT_EQ(message("[lower.z1, upper.z0]"), "accepted");
   EXPECT_THAT(message("[lower.z1, lower.z1]"), HasSubstr("twice"));
   EXPECT_THAT(message("[lower.z1, lower.x0]"), HasSubstr("share nodes"));
-  EXPECT_THAT(message("[lower.z1, upper.z9]"), HasSubstr("upper.z0"));
+  EXPECT_THAT(message("[lower.z1, upper.z9]"), HasSubstr("did you mean 'upper.z0'?"));
+  EXPECT_THAT(message("[lower.z1, uper]"), HasSubstr("no surface or region 'uper'; did you mean 'upper'?"));
+  EXPECT_THAT(message("[lower.z1, all]"), HasSubstr("a region for its whole outer surface (lower, upper)"));
 }
 
 }  // namespace

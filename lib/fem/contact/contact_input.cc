@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lib/core/errors.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/mesh_faces.h"
 #include "lib/mesh/selection.h"
 
@@ -30,14 +31,26 @@ void remove_repeated(NodePairs& pairs) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
+[[noreturn]] void fail_unknown_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin) {
+  std::vector<std::string> surfaces;
+  for (const auto& [known, faces] : mesh.surfaces) surfaces.push_back(known);
+  const auto& regions = mesh.region_names;
+  std::vector<std::string> all = surfaces;
+  all.insert(all.end(), regions.begin(), regions.end());
+  origin.fail(fmt::format(
+      "the mesh has no surface or region '{}'{} Give a surface ({}), or a region for its whole outer "
+      "surface ({})",
+      name, did_you_mean(name, all, "."), surfaces.empty() ? "it has none" : join(surfaces), join(regions)));
+}
+
 }  // namespace
 
 ContactSurface contact_surface(const Mesh& mesh, const std::string& name, const SourceLocation& origin,
                                std::optional<int> first_middle) {
   const auto& regions = mesh.region_names;
   const auto region = std::find(regions.begin(), regions.end(), name);
-  if (mesh.surfaces.contains(name) || region == regions.end())
-    return {mesh, find_surface(mesh, name, origin), first_middle};
+  if (mesh.surfaces.contains(name)) return {mesh, find_surface(mesh, name, origin), first_middle};
+  if (region == regions.end()) fail_unknown_surface(mesh, name, origin);
   return {mesh, outer_faces(mesh, static_cast<int>(region - regions.begin())), first_middle};
 }
 
