@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/errors.h"
+#include "lib/fem/element_mesh.h"
 
 namespace orthodyn {
 
@@ -87,7 +89,33 @@ std::vector<int> frame_of(const Mesh& mesh, const std::vector<int>& nodes) {
   return frame;
 }
 
+// J = trace(E) I - E for Euler's tensor E.
+Mat3 moments_of(const Mat3& euler) { return euler.trace() * Mat3::Identity() - euler; }
+
+// The consistent mass M integrates rho N_a N_b, so that Euler's tensor is the sum of M_ab r_a r_b^T.
+RigidInertia inertia_of(const ElementMesh& mesh, std::size_t cell, double density) {
+  const ElementType::Nodes X = mesh.positions(cell);
+  const Eigen::MatrixXd M = mesh.type(cell).consistent_mass(X, density);
+  RigidInertia out{M.sum(), Vec3(X * M.rowwise().sum()) / M.sum()};
+  const ElementType::Nodes r = X.colwise() - out.center;
+  out.moments = moments_of(Mat3(r * M * r.transpose()));
+  return out;
+}
+
 }  // namespace
+
+Vec3 RigidInertia::principal_moments() const {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(moments, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+void RigidInertia::add(const RigidInertia& other) {
+  const double sum = mass + other.mass;
+  if (sum == 0) return;
+  const Vec3 apart = other.center - center;
+  moments += other.moments + moments_of(mass * other.mass / sum * apart * apart.transpose());
+  center += other.mass / sum * apart;
+  mass = sum;
+}
 
 RigidBody rigid_body(const Mesh& mesh, const std::vector<int>& nodes, std::string name, std::string place) {
   const std::vector<int> frame = frame_of(mesh, nodes);
@@ -122,12 +150,11 @@ FrameMass RigidBody::frame_mass(const Mesh& mesh) const {
   const Barycentric barycentric(mesh, frame);
   const Eigen::Matrix<double, 4, 3> gradients = barycentric.gradients();
   FrameMass out{frame, Eigen::Matrix4d::Zero(), nodes()};
-  for (const RigidInertia& inertia : given) {
+  for (const RigidInertia& own : given) {
     Eigen::Vector4d at_center;
-    const auto weights = barycentric.of(inertia.center);
+    const auto weights = barycentric.of(own.center);
     for (std::size_t a = 0; a < 4; ++a) at_center[static_cast<Eigen::Index>(a)] = weights[a].second;
-    out.matrix +=
-        inertia.mass * at_center * at_center.transpose() + gradients * inertia.euler() * gradients.transpose();
+    out.matrix += own.mass * at_center * at_center.transpose() + gradients * own.euler() * gradients.transpose();
   }
   return out;
 }
@@ -138,6 +165,22 @@ Joint RigidBody::rigidity(const Mesh& mesh) const {
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t b = 0; b < a; ++b) joint.equations.push_back(JointEquation::distance(corner(a), corner(b)));
   return joint;
+}
+
+void add_inertia(const Mesh& mesh, const std::vector<double>& density, std::vector<RigidBody>& bodies) {
+  std::vector<RigidBody*> body_of(mesh.nodes.size(), nullptr);
+  for (RigidBody& body : bodies) {
+    for (const int node : body.nodes()) body_of[static_cast<std::size_t>(node)] = &body;
+    for (const RigidInertia& given : body.given) body.inertia.add(given);
+  }
+  const ElementMesh elements(mesh);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto of = [&](int node) { return body_of[static_cast<std::size_t>(node)]; };
+    const auto nodes = mesh.cells[cell];
+    RigidBody* const body = of(nodes[0]);
+    if (body && density[cell] > 0 && std::all_of(nodes.begin(), nodes.end(), [&](int n) { return of(n) == body; }))
+      body->inertia.add(inertia_of(elements, cell, density[cell]));
+  }
 }
 
 bool spans_plane(const Mesh& mesh, const std::vector<int>& nodes) {

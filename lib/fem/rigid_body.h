@@ -32,6 +32,10 @@ struct RigidInertia {
 
   // Euler's tensor, integral of rho r r^T dV = trace(J)/2 I - J, kg m^2.
   Mat3 euler() const { return moments.trace() / 2 * Mat3::Identity() - moments; }
+  // Eigenvalues of `moments`, ascending, kg m^2.
+  Vec3 principal_moments() const;
+  // Makes this the inertia of both bodies together.
+  void add(const RigidInertia& other);
 };
 
 struct RigidBody {
@@ -41,6 +45,7 @@ struct RigidBody {
   std::vector<TiedNode> followers;       // all other nodes
   bool is_held = false;                  // by a clamp or a motion of its frame
   std::vector<RigidInertia> given = {};  // of its regions of given inertia, whose cells have no mass
+  RigidInertia inertia = {};             // of the whole body, by the mesh and by `given`; set by add_inertia()
 
   // All nodes of the body: first the four nodes of the frame, then the followers.
   std::vector<int> nodes() const;
@@ -56,6 +61,9 @@ struct RigidBody {
 
 // The body of these nodes. The frame is a tetrahedron of large volume. Throws ConfigError if the nodes lie in a plane.
 RigidBody rigid_body(const Mesh& mesh, const std::vector<int>& nodes, std::string name, std::string place);
+
+// Adds to each body's `inertia` that of its cells, by their density (kg/m^3), and the given ones.
+void add_inertia(const Mesh& mesh, const std::vector<double>& density, std::vector<RigidBody>& bodies);
 
 // Whether the body's motion is known from these nodes: whether three of them are not on a line.
 bool spans_plane(const Mesh& mesh, const std::vector<int>& nodes);

@@ -275,6 +275,7 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   if (ranks) require_divisible(scene);
   warn_of_unused_axes(scene, deformable, loaded.cell_data, loaded.warnings);
   ElasticParts elastic = elastic_parts(scene, regions, parts.mesh, loaded.warnings);
+  add_inertia(parts.mesh, elastic.density, parts.rigid_bodies);
   Supports supports = make_supports(scene, parts.mesh);
   hold_rigid_bodies(scene, parts.mesh, parts.rigid_bodies, supports);
   require_dynamic(scene, parts.rigid_bodies);

@@ -133,6 +133,20 @@ TEST(GivenInertia, MayBeThatOfTheMesh) {
   }
 }
 
+// The inertia that `orthodyn check` prints, of a body by its mesh, by given inertias, and by both.
+TEST(GivenInertia, IsToldForTheWholeBody) {
+  const std::string by_mesh = "{material: m, rigid: true}";
+  const Vec3 moments = 4.0 / 12 * Vec3(0.16 + 0.04, 1 + 0.04, 1 + 0.16);  // of the whole box, ascending
+  for (const auto& [body, tip] : {std::pair(by_mesh, by_mesh), std::pair(half(0.25), half(0.75)),
+                                  std::pair(by_mesh, half(0.75)), std::pair(half(0.25), by_mesh)}) {
+    const BuiltTestScene s(rigid_box(fmt::format("{{body: {}, tip: {}}}", body, tip)));
+    const RigidInertia& inertia = s.model().parts().rigid_bodies.at(0).inertia;
+    EXPECT_NEAR(inertia.mass, 4, 1e-12);
+    EXPECT_LE((inertia.center - Vec3(0.5, 0.2, 0.1)).norm(), 1e-12);
+    EXPECT_LE((inertia.principal_moments() - moments).norm(), 1e-12);
+  }
+}
+
 struct Given {
   double mass = 3;
   Vec3 center{2, -1, 0.5};

@@ -70,6 +70,21 @@ TEST_F(CommandLine, CheckTellsACriticalStepThatHolds) {
   }
 }
 
+TEST_F(CommandLine, CheckTellsTheInertiaOfRigidBodies) {
+  const std::string body = "regions:\n  body: {material: m, rigid: ";
+  const std::string rest =
+      "}\nmesh: {type: box, size: [1, 0.4, 0.2], cells: [1, 1, 1], order: 1}\n"
+      "materials: {m: {type: isotropic, density: 50, young: 1e4, nu: 0.3}}\ntime: {end: 1}\n";
+  write("mesh.yaml", body + "true" + rest);
+  write("given.yaml", body + "{mass: 1.5, center: [0.5, 0, 0.1], inertia: [2, 3, 4, 0, 0, 0]}" + rest);
+  for (const auto& [file, says] :
+       {std::pair("mesh.yaml", "mass 4 kg, centre [0.5, 0.2, 0.1] m, principal moments 0.06667, 0.3467, 0.3867 kg m^2"),
+        std::pair("given.yaml", "mass 1.5 kg, centre [0.5, 0, 0.1] m, principal moments 2, 3, 4 kg m^2")}) {
+    const auto result = orthodyn(std::string("check ") + file);
+    EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
+  }
+}
+
 TEST_F(CommandLine, APluginBeforeTheSceneLeavesTheSceneAlone) {
   write("text.so", "no library");
   const auto refused = orthodyn("check --plugin text.so swing.yaml");

@@ -67,6 +67,20 @@ TEST(InputChecks, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
   EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nclamps: [{surface: x0}]"), testing::Not(reported));
 }
 
+TEST(InputChecks, AGivenCentreOfMassFarFromTheBodyIsNamed) {
+  const auto body = [](const std::string& center) {
+    return findings_of(fmt::format("mesh: {{type: box, size: [1, 0.1, 0.1], cells: [1, 1, 1], order: 1}}\n"
+                                   "materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}\n"
+                                   "regions:\n  body: {{material: m, rigid: {{mass: 10, center: {}, inertia: [1, 1, "
+                                   "1]}}}}\ntime: {{end: 1}}\n",
+                                   center))
+        .words;
+  };
+  EXPECT_THAT(body("[0.5, 0.05, 0.05]"), Not(HasSubstr("centre of mass")));
+  EXPECT_THAT(body("[1.5, 0.05, 0.05]"), Not(HasSubstr("centre of mass")));
+  EXPECT_THAT(body("[500, 50, 50]"), HasSubstr("regions.body: rigid: the centre of mass, [500, 50, 50]"));
+}
+
 TEST(InputChecks, ANearlyIncompressibleMaterialIsNotForLinearTetrahedra) {
   const auto block = [](const std::string& mesh) {
     return findings_of("mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], " + mesh +

@@ -149,13 +149,22 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
+// `extent`: of the mesh, m. Coordinates far below it are round-off.
+void print_rigid_body(const RigidBody& body, double extent) {
+  const RigidInertia& inertia = body.inertia;
+  const Vec3 center = (inertia.center.array().abs() > 1e-9 * extent).select(inertia.center, 0);
+  const Vec3 J = inertia.principal_moments();
+  fmt::print("  {}: {} nodes, {}\n", body.name, body.nodes().size(), body.is_held ? "held" : "free");
+  fmt::print("    mass {:.6g} kg, centre [{:.6g}, {:.6g}, {:.6g}] m, principal moments {:.4g}, {:.4g}, {:.4g} kg m^2\n",
+             inertia.mass, center[0], center[1], center[2], J[0], J[1], J[2]);
+}
+
 void print_connections(const FemModel& model) {
   const auto& parts = model.parts();
   if (!parts.ties.empty()) fmt::print("ties\n");
   for (const NamedTie& tie : parts.ties) fmt::print("  {}: {} tied nodes\n", tie.name, tie.nodes.size());
   if (!parts.rigid_bodies.empty()) fmt::print("rigid bodies\n");
-  for (const RigidBody& body : parts.rigid_bodies)
-    fmt::print("  {}: {} nodes, {}\n", body.name, body.nodes().size(), body.is_held ? "held" : "free");
+  for (const RigidBody& body : parts.rigid_bodies) print_rigid_body(body, bounding_box(parts.mesh).diagonal());
   const auto is_of_bodies = [](const Joint& joint) { return joint.of == Joint::Of::bodies; };
   if (std::any_of(parts.joints.begin(), parts.joints.end(), is_of_bodies)) fmt::print("joints\n");
   for (const Joint& joint : parts.joints) {
