@@ -250,6 +250,28 @@ TEST_F(CommandLine, ListsStrengthsReactionsAndBuckling) {
   EXPECT_NE(orthodyn("list buckling").output.find("critical load factors"), std::string::npos);
 }
 
+// Each type of joint has the keys that it can take.
+TEST_F(CommandLine, ListsJointsAndTheirQuantities) {
+  const std::string joints = orthodyn("list joints").output;
+  const auto part = [&](const std::string& from, const std::string& to) {
+    const auto begin = joints.find("\n  " + from + "\n"), end = joints.find("\n  " + to + "\n");
+    return begin < end && end != std::string::npos ? joints.substr(begin, end - begin) : "";
+  };
+  const auto has = [](const std::string& text, const std::string& key) {
+    return text.find("\n    " + key + " ") != std::string::npos;
+  };
+  const std::string ball = part("ball", "hinge"), hinge = part("hinge", "distance");
+  EXPECT_TRUE(has(ball, "at")) << joints;
+  EXPECT_FALSE(has(ball, "from")) << ball;
+  EXPECT_FALSE(has(ball, "spring")) << ball;
+  EXPECT_FALSE(has(hinge, "at")) << hinge;
+  EXPECT_TRUE(has(hinge, "from")) << hinge;
+  EXPECT_TRUE(has(hinge, "motor")) << hinge;
+  const std::string quantities = orthodyn("list quantities").output;
+  for (const char* name : {"joint.JOINT", "coordinate.JOINT", "motor.JOINT", "joints.gap", "joints.rate", "tie.TIE"})
+    EXPECT_NE(quantities.find(name), std::string::npos) << name;
+}
+
 // energy.balance_drift (J) in run.json of out/swing.
 double balance_drift(const fs::path& folder) {
   return Json::parse(read_text(folder / "out/swing/run.json")).at("energy").at("balance_drift");

@@ -128,9 +128,10 @@ int list(const ListArguments& arguments) {
 }
 
 void declare(ListArguments& arguments, CommandOptions& options) {
-  options.value("what", arguments.what,
-                "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, buckling, "
-                "harmonic, events, expect, comparison, sweep, fit, stability, fields or quantities; default: all.");
+  options.value(
+      "what", arguments.what,
+      "scene, materials, presets, meshes, axes, integrators, solvers, terms, joints, factors, statics, buckling, "
+      "harmonic, events, expect, comparison, sweep, fit, stability, fields or quantities; default: all.");
   options.flag("--markdown", arguments.markdown, "Print every key of the input as one page in Markdown.");
 }
 

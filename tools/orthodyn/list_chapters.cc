@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "lib/config/registry.h"
 #include "lib/fem/fem_model.h"
 #include "lib/fem/nodal_fields.h"
@@ -98,6 +101,50 @@ void list_terms() {
   print_entry("initial.noise", "Random displacements of the free coordinates.", Noise::spec().keys());
 }
 
+const char* sentence_of(JointType type) {
+  switch (type) {
+    case JointType::ball: return "Holds the point `at` of both bodies together.";
+    case JointType::hinge:
+      return "Holds the points `from` and `to` of both bodies together: they turn about the line through them.";
+    case JointType::distance:
+      return "Keeps the distance of `from` on the first body and `to` on the second one: a massless rod.";
+    case JointType::slot:
+      return "Holds the point `from` of the first body on the line of the second one through `from` and `to`.";
+    case JointType::cylindrical:
+      return "Holds the points `from` and `to` of the first body on this line of the second one: it slides and turns.";
+    case JointType::slider: return "As cylindrical, without turning about the line.";
+  }
+  return "";
+}
+
+// The keys of a type of joint; points that it needs are required.
+std::vector<Key> keys_of(JointType type) {
+  JointInput joint;
+  joint.type = type;
+  const bool is_ball = type == JointType::ball;
+  std::vector<Key> out;
+  for (Key key : JointInput::spec().keys()) {
+    const auto is_any_of = [&](std::initializer_list<const char*> names) {
+      return std::find(names.begin(), names.end(), key.name) != names.end();
+    };
+    if (is_any_of({"type"}) || (is_any_of({"at"}) && !is_ball) || (is_any_of({"from", "to"}) && is_ball)) continue;
+    if (is_any_of({"spring", "stop", "friction", "load", "motor"}) && !joint.turns() && !joint.slides()) continue;
+    key.required = key.required || is_any_of({"at", "from", "to"});
+    out.push_back(key);
+  }
+  return out;
+}
+
+void list_joints() {
+  for (const auto& [type, name] : EnumNames<JointType>::list) print_entry(name, sentence_of(type), keys_of(type));
+  print_entry("joints.<n>.first", "Nodes of a body that hold the joint; second likewise.", JointEnd::spec().keys());
+  print_entry("joints.<n>.spring", "Spring and damping along the coordinate.", JointSpring::spec().keys());
+  print_entry("joints.<n>.stop", "Limits of the coordinate.", JointStop::spec().keys());
+  print_entry("joints.<n>.friction", "Friction against changes of the coordinate.", JointFriction::spec().keys());
+  print_entry("joints.<n>.load", "Force or torque along the coordinate.", JointLoading::spec().keys());
+  print_entry("joints.<n>.motor", "The coordinate is prescribed in time.", JointDrive::spec().keys());
+}
+
 void list_scene() {
   print_entry("scene", "The keys of a scene.", Scene::spec().keys());
   print_entry("time", "Time span.", TimeSpan::spec().keys());
@@ -191,6 +238,15 @@ void list_quantities() {
   fmt::print(
       "  torque.SUPPORT         Torque of that force about the centre of the support's nodes (3 components, N m).\n");
   fmt::print("                         Both need output.reactions: true, unless `expect` names them.\n");
+  fmt::print("  joint.JOINT            Force of a joint on its first body, by its name (3 components, N).\n");
+  fmt::print(
+      "  coordinate.JOINT       Distance (m) along the line of a slot, cylindrical or slider joint, or angle (rad) of "
+      "a hinge (1 component).\n");
+  fmt::print(
+      "  motor.JOINT            Force (N) or torque (N m) of a joint's motor on its first body (1 component).\n");
+  fmt::print("  joints.gap             Largest distance of joined points, and change of rods (1 component, m).\n");
+  fmt::print("  joints.rate            Largest rate of these distances (1 component, m/s).\n");
+  fmt::print("  tie.TIE                Force of the second surface of a tie on the first one (3 components, N).\n");
   fmt::print("  [REGION.]FIELD.largest, .smallest\n");
   fmt::print(
       "                         Over the nodes of the body or a region; tensors with a component "
@@ -210,6 +266,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& list_chapters(
       {"meshes", list_meshes},
       {"axes", list_registry<AxesSource>},
       {"terms", list_terms},
+      {"joints", list_joints},
       {"factors", list_registry<TimeFunction>},
       {"integrators", list_registry<IntegratorChoice>},
       {"solvers", list_solvers},
