@@ -26,7 +26,7 @@ void require_linear(const Model& model) {
   if (!model.traits().linear)
     throw ConfigError(
         "modal integrates only linear models, and this model is nonlinear: set `elasticity.kinematics: linear` and use "
-        "no ground_contact, following pressure or turning springs and dashpots, or use another integrator");
+        "no contact, following pressure or turning springs and dashpots, or use another integrator");
   if (!model.pattern().symmetric) throw ConfigError("modal needs a symmetric stiffness; use another integrator");
 }
 

@@ -85,6 +85,25 @@ TEST_F(CommandLine, CheckTellsTheInertiaOfRigidBodies) {
   }
 }
 
+// A rigid body that a joint holds.
+TEST_F(CommandLine, CheckTellsOfNoCriticalStepWithoutElasticity) {
+  write("rod.yaml", R"(
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [1, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+regions: {body: {material: m, rigid: true}}
+joints: [{type: ball, name: foot, at: [0, 0, 0], first: {region: body}}]
+gravity: [0, 0, -10]
+time: {end: 1}
+)");
+  const auto result = orthodyn("check rod.yaml");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("no critical step of an explicit scheme"), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("inf s"), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("the body is free"), std::string::npos) << result.output;
+  write("swing.yaml", kSwing);
+  EXPECT_NE(orthodyn("check swing.yaml --set 'clamps=[]'").output.find("none: the body is free"), std::string::npos);
+}
+
 TEST_F(CommandLine, APluginBeforeTheSceneLeavesTheSceneAlone) {
   write("text.so", "no library");
   const auto refused = orthodyn("check --plugin text.so swing.yaml");

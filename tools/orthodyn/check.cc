@@ -106,7 +106,10 @@ double critical_step(const FemModel& model) {
 void print_dynamics(Setup& setup) {
   const FemModel& model = *setup.built.model;
   setup.integrator->start(setup.built.initial);
-  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", critical_step(model));
+  if (const double step = critical_step(model); std::isfinite(step))
+    fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", step);
+  else
+    fmt::print("  no critical step of an explicit scheme, as nothing is elastic: give central_differences a `step`\n");
   const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
   if (!breakpoints.empty())
     fmt::print("  restarts at kinks of loads and motions: t = {} s\n", fmt::join(breakpoints, ", "));
@@ -138,13 +141,20 @@ void print_harmonic(const Setup& setup) {
   print_memory(*setup.built.model, "", 0, make_solver_for(setup.built.model->pattern())->factor_bytes());
 }
 
+// Whether joints, or terms that are no loads, such as springs and contact, may hold a body.
+bool may_be_held(const FemModel::Parts& parts) {
+  return std::any_of(parts.joints.begin(), parts.joints.end(),
+                     [](const Joint& joint) { return joint.of == Joint::Of::bodies; }) ||
+         std::any_of(parts.loads.begin(), parts.loads.end(), [](const auto& term) { return !term->is_load(); });
+}
+
 void print_supports(const FemModel& model) {
   const auto& parts = model.parts();
   const auto coordinates = 3 * (parts.mesh.nodes.size() - parts.dofs->ties().nodes().size());
   const auto moved = parts.moved ? parts.moved->num_coordinates() : 0;
   const auto held = coordinates - static_cast<std::size_t>(model.num_dofs()) - moved;
   fmt::print("clamps\n");
-  if (held == 0) fmt::print("  none{}\n", moved > 0 ? "" : ": the body is free");
+  if (held == 0) fmt::print("  none{}\n", moved > 0 || may_be_held(parts) ? "" : ": the body is free");
   else fmt::print("  {} of {} coordinates are held\n", held, coordinates);
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }

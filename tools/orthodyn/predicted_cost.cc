@@ -41,9 +41,8 @@ std::string shown_steps(const RunCost& cost) {
     return fmt::format("about {:.0f} without vibrations, {:.2g} with vibrations that last{}", cost.steps.least,
                        cost.steps.most, early);
   return fmt::format("{:.0f} to {:.0f}, adaptive: {}{}", cost.steps.least, cost.steps.most,
-                     cost.has_contact
-                         ? "small during contact with the ground; the number of contacts is not known in advance"
-                         : "accurate to an order of magnitude",
+                     cost.has_contact ? "small during contact; the number of contacts is not known in advance"
+                                      : "accurate to an order of magnitude",
                      early);
 }
 

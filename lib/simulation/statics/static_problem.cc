@@ -50,9 +50,8 @@ Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times
   try {
     while (!settling.stepper->done()) settling.stepper->step();
   } catch (const RunError& e) {
-    throw RunError(
-        fmt::format("the equilibrium without loads, with springs and ground contact, is not found: {}", e.what()),
-        e.reason());
+    throw RunError(fmt::format("the equilibrium without loads, with springs and contact, is not found: {}", e.what()),
+                   e.reason());
   }
   return settling.stepper->state().q;
 }
