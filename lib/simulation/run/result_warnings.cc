@@ -27,15 +27,19 @@ void add_warning(std::vector<std::string>& all, fmt::format_string<Arguments...>
 }
 
 // With few states, the true largest energy may be larger than the one observed.
-std::string drift_sentence(const EnergySummary& energy) {
+std::string drift_sentence(const EnergySummary& energy, bool is_by_barrier) {
+  constexpr const char* kGeneral =
+      "the integration creates or loses energy, or does not resolve the dissipation of fast vibrations. Estimate the "
+      "error of the motion with --estimate-error, or use a smaller integrator.rtol or integrator.step";
+  constexpr const char* kBarrier =
+      "positions are not accurate to a small part of the gap of a barrier contact, or vibrations are not resolved. "
+      "Lower integrator.position_scale to about the gap, and integrator.rtol (of a fixed step, integrator.step)";
   return fmt::format(
-      "the energy balance drifts by {:.2g} of the largest energy{}: the integration creates or loses energy, or does "
-      "not resolve the dissipation of fast vibrations. Estimate the error of the motion with --estimate-error, or use "
-      "a smaller integrator.rtol or integrator.step",
-      energy.relative_drift,
+      "the energy balance drifts by {:.2g} of the largest energy{}: {}", energy.relative_drift,
       energy.states > 2 ? ""
                         : ", evaluated at the start and the end only (output.energy_times: steps evaluates it at every "
-                          "step, and may find a larger energy)");
+                          "step, and may find a larger energy)",
+      is_by_barrier ? kBarrier : kGeneral);
 }
 
 // Type of the integrator, or the method that `auto` has chosen.
@@ -172,7 +176,7 @@ std::vector<std::string> result_warnings(const RunResult& result) {
                   motion->det_f.time, motion->det_f.value);
     all.insert(all.end(), motion->warnings.begin(), motion->warnings.end());
     if (motion->energy && !(motion->energy->relative_drift <= kLargeDrift))
-      all.push_back(drift_sentence(*motion->energy));
+      all.push_back(drift_sentence(*motion->energy, result.model.has_barrier));
     if (motion->joints && motion->rtol && !(motion->joints->gap <= kLargeGap * *motion->rtol * motion->joints_extent))
       add_warning(
           all,

@@ -31,6 +31,7 @@ struct ModelSummary {
   std::string kinematics = {};     // kinematics_summary(): choice for `auto`, and the error of linear kinematics; or ""
   std::optional<double> linear_error = {};  // relative error of linear kinematics; infinite if too large to estimate
   bool buckles = false;                     // true if the body buckles below loads that linear kinematics carry
+  bool has_barrier = false;                 // contact by a barrier
 };
 
 struct EnergySummary {
