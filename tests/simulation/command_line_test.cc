@@ -263,6 +263,24 @@ TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"failed\""), std::string::npos);
 }
 
+// The method accepts a step to a state whose energy is infinite.
+TEST_F(CommandLine, ARunThatCannotBeObservedSaysWhen) {
+  write("crushed.yaml", R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+regions: {body: {material: m, law: neo_hookean}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [-9000, 0, 0]}]
+time: {end: 1}
+integrator: {type: energy_momentum, step: 0.05}
+)");
+  const auto result = orthodyn("run crushed.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("error: the state at t = 0."), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("s cannot be evaluated: an element is inverted"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("lower integrator.step"), std::string::npos) << result.output;
+}
+
 TEST_F(CommandLine, ListsStrengthsReactionsAndBuckling) {
   EXPECT_NE(orthodyn("list presets").output.find("strengths along 1, 2, 3: tension 70, 2.6, 2.6"), std::string::npos);
   EXPECT_NE(orthodyn("list quantities").output.find("reaction.SUPPORT"), std::string::npos);

@@ -52,6 +52,7 @@ class Driver {
         observers_(observers),
         interrupt_(interrupt),
         outcome_(outcome),
+        observed_at_(outcome.last.t),
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
         limits_(model.step_limits(outcome.last.t, plan.end)),
         outputs_(plan.output_times),
@@ -75,6 +76,19 @@ class Driver {
   }
 
   void advance() {
+    try {
+      advance_to_end();
+    } catch (const RecoverableError& e) {  // of an observer; the integrator has accepted the state
+      throw RunError(
+          fmt::format("the state at t = {:.6g} s cannot be evaluated: {}; {}", observed_at_, e.what(),
+                      integrator_.adaptive() ? "lower integrator.rtol or integrator.h_max"
+                                             : "lower integrator.step, or use error control (integrator.rtol)"),
+          Reason::force);
+    }
+  }
+
+ private:
+  void advance_to_end() {
     outcome_.between_steps = false;
     {
       const Measure measure(outcome_.observation);
@@ -88,7 +102,6 @@ class Driver {
     }
   }
 
- private:
   void notify_start(const ObservedState& start) {
     for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
     if (plan_.events && !plan_.delivered) plan_.events->start(start);
@@ -118,9 +131,11 @@ class Driver {
         outcome_.stepped_over = begin;
       outcome_.between_steps = false;
       const Measure measure(outcome_.observation);
+      observed_at_ = info.t;
       const Event* stopper = deliver_events(begin, info);
       deliver_outputs(info.t);
       if (stopper) deliver_last_output(info.t);
+      observed_at_ = info.t;
       integrator_.interpolate(info.t, outcome_.last);
       const ObservedState end(model_, outcome_.last);
       if (plan_.history_at_steps) notify_history(end);
@@ -166,6 +181,7 @@ class Driver {
 
   void deliver(double t, bool is_output, bool is_history) {
     State state;
+    observed_at_ = t;
     integrator_.interpolate(t, state);
     const ObservedState observed(model_, state);
     if (is_history) notify_history(observed);  // first: on_output may throw (LinearityWatch)
@@ -199,6 +215,7 @@ class Driver {
   static constexpr double kMissed = 4;  // fixed steps that are longer than Model::longest_step() by this are told
 
   double last_step_ = std::numeric_limits<double>::infinity();  // s
+  double observed_at_;                                          // s, the state that observers see
   double tiny_;  // outputs closer than this to a stop are moved to the stop, s
   StepLimits limits_;
   std::vector<double> stops_;
