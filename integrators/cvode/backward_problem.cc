@@ -45,7 +45,7 @@ void BackwardProblem::require(int flag) const {
   if (flag >= 0) return;
   if (callbacks_.failure) std::rethrow_exception(callbacks_.failure);
   throw RunError("the adjoint equations could not be integrated: " + callbacks_.message +
-                 (callbacks_.recoverable_cause.empty() ? "" : " (" + callbacks_.recoverable_cause + ")"));
+                 callbacks_.recoverable_cause.in_brackets());
 }
 
 void BackwardProblem::jump(std::size_t k, const State& state) {

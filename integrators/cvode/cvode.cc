@@ -235,8 +235,8 @@ class Cvode final : public SundialsIntegrator {
 
   std::string iteration_failure() const override {
     if (!method_.anderson) return SundialsIntegrator::iteration_failure();
-    return "the fixed-point iteration does not converge at the smallest step" + cause() +
-           "; set integrator.nonlinear: newton, or lower h_min";
+    return explained("the fixed-point iteration does not converge at the smallest step",
+                     "; set integrator.nonlinear: newton, or lower h_min");
   }
 
   void use_fixed_point() {

@@ -29,7 +29,8 @@ Vector unit_random_vector(const Model& model) {
 // Explains a flag of KINSol(), with the key that may help.
 std::string failure_message(int flag, const KinsolOptions& options, bool stiffness_is_exact,
                             const CallbackContext& context) {
-  const std::string cause = context.recoverable_cause.empty() ? "" : " (" + context.recoverable_cause + ")";
+  if (context.recoverable_cause.is_limit()) return context.recoverable_cause.text();
+  const std::string cause = context.recoverable_cause.in_brackets();
   const std::string approximate = stiffness_is_exact ? ""
                                                      : "; the stiffness is approximate: set elasticity.warped_tangent: "
                                                        "unsymmetric and statics.solver.linear_solver: klu";
@@ -128,6 +129,7 @@ class Kinsol : public EquilibriumSolver {
       attempt.above_tolerance = !within_tolerance;
     } else {
       attempt.failure_reason = failure_message(flag, options_, path_.traits().exact_stiffness, callback_context_);
+      attempt.names_remedy = callback_context_.recoverable_cause.is_limit();
     }
     return attempt;
   }

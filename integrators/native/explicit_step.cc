@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "integrators/run_checks.h"
+#include "lib/core/cause.h"
 #include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
@@ -42,7 +43,9 @@ StepInfo ExplicitStep::step(double t_stop) {
   try {
     advance(t_stop);
   } catch (const RecoverableError& e) {
-    fail(fmt::format("the force cannot be evaluated ({}); {} or check the loads", e.what(), remedies_.shorter),
+    Cause cause;
+    cause.note(e);
+    fail(cause.explain("the force cannot be evaluated", "; " + remedies_.shorter + " or check the loads"),
          Reason::force);
   }
   std::swap(begin_, end_);

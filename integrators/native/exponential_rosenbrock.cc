@@ -130,7 +130,7 @@ class ExponentialRosenbrock : public ExplicitStep {
                        "integrator.krylov_dimension or lower integrator.h_min",
                        options_.krylov_dimension),
            Reason::other);
-    fail("the force cannot be evaluated (" + adaptive_.cause() + "); lower integrator.h_max or check the loads",
+    fail(adaptive_.cause().explain("the force cannot be evaluated", "; lower integrator.h_max or check the loads"),
          Reason::force);
   }
 

@@ -202,9 +202,10 @@ class Modal : public Integrator {
                          "the load cannot be followed to the tolerance; raise integrator.rtol, lower integrator.h_min, "
                          "or look for a kink in the loads",
                      Reason::error_test);
-    throw RunError(stopped + "the force cannot be evaluated (" + adaptive_.cause() +
-                       "); lower integrator.h_max or check the initial state and the loads",
-                   Reason::force);
+    throw RunError(
+        stopped + adaptive_.cause().explain("the force cannot be evaluated",
+                                            "; lower integrator.h_max or check the initial state and the loads"),
+        Reason::force);
   }
 
   const Model& model_;

@@ -114,7 +114,7 @@ OneStep::StepResult OneStep::try_step(double h) {
     error_ = norm_(e_q_, e_v_);
     return error_ <= 1 ? StepResult::good : StepResult::error_test;
   } catch (const RecoverableError& e) {
-    cause_ = e.what();
+    cause_.note(e);
     return StepResult::force;
   }
 }
@@ -207,7 +207,7 @@ void OneStep::give_up(StepResult result, double t, double h) const {
   const std::string shorter = options_.step ? "lower integrator.step" : "lower integrator.h_max or rtol";
   switch (result) {
     case StepResult::force:
-      throw RunError(where + "the force cannot be evaluated (" + cause_ + "); " + shorter + " or check the loads",
+      throw RunError(where + cause_.explain("the force cannot be evaluated", "; " + shorter + " or check the loads"),
                      Reason::force);
     case StepResult::newton:
       throw RunError(where + "Newton's method does not converge" +

@@ -13,6 +13,7 @@
 #include "integrators/native/native_options.h"
 #include "integrators/native/step_controllers.h"
 #include "integrators/scaled_norm.h"
+#include "lib/core/cause.h"
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"
 
@@ -85,7 +86,7 @@ class OneStep : public Integrator {
   double h_ = 0;             // next step with error control, s; 0 if still to be estimated
   double newton_limit_ = 0;  // bound of the next step after a longer one had no solution, s
   double error_ = 0;         // error of the last attempt in units of the tolerance
-  std::string cause_;        // why the model refused the last attempt, if it did
+  Cause cause_;              // why the model refused the last attempt, if it did
   StepEnd before_, now_;     // the ends of the last step
   Vector e_q_, e_v_;
 };

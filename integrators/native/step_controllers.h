@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "lib/core/cause.h"
 #include "lib/core/errors.h"
 #include "lib/ode/statistics.h"
 
@@ -53,7 +54,7 @@ class AdaptiveStep {
   void propose(double h) { h_ = h; }
 
   // Why the model refused the last attempt; empty if it did not.
-  const std::string& cause() const { return cause_; }
+  const Cause& cause() const { return cause_; }
 
   // Takes one step. length() returns the step to attempt, at most proposed(). attempt(h) returns the error, or nothing
   // if there is no result; it may throw RecoverableError. rejected(has_error) is called after a failed attempt, and
@@ -89,7 +90,7 @@ class AdaptiveStep {
     try {
       return attempt(h);
     } catch (const RecoverableError& e) {
-      cause_ = e.what();
+      cause_.note(e);
       return std::nullopt;
     }
   }
@@ -97,7 +98,7 @@ class AdaptiveStep {
   static constexpr double kRetryFactor = 0.25;  // factor after an attempt without a result
   PiStepController controller_;
   double h_ = 0;
-  std::string cause_;
+  Cause cause_;
 };
 
 // Predictive controller (Gustafsson 1994; Hairer & Wanner 1996, IV.8) with a dead band, for methods in which a new step

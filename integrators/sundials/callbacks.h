@@ -5,6 +5,7 @@
 #include <string>
 
 #include "integrators/sundials/version.h"
+#include "lib/core/cause.h"
 #include "lib/core/errors.h"
 #include "lib/ode/integrator.h"
 
@@ -12,9 +13,9 @@ namespace orthodyn::sundials {
 
 // State shared by an integrator and its callbacks.
 struct CallbackContext {
-  std::exception_ptr failure;     // a fatal exception, rethrown after the C code has returned
-  std::string recoverable_cause;  // message of the last RecoverableError
-  std::string message;            // SUNDIALS' last error message
+  std::exception_ptr failure;  // a fatal exception, rethrown after the C code has returned
+  Cause recoverable_cause;     // the last RecoverableError
+  std::string message;         // SUNDIALS' last error message
 };
 
 // Runs a callback's body. Returns 0, +1 (recoverable: try a smaller step) or -1 (fatal).
@@ -25,7 +26,7 @@ int guarded(CallbackContext& context, Body&& body) {
     return 0;
   } catch (const RecoverableError& e) {
     try {
-      context.recoverable_cause = e.what();
+      context.recoverable_cause.note(e);
     } catch (...) {  // no memory for the text
       context.recoverable_cause.clear();
     }

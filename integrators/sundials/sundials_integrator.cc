@@ -150,8 +150,8 @@ StepInfo SundialsIntegrator::step(double t_stop) {
 // Ends a run whose steps become ever smaller, as before a time past which the model cannot be evaluated.
 void SundialsIntegrator::refuse_tiny_steps(const StepInfo& info, double t_stop) const {
   if (info.t >= t_stop || info.h > 4 * std::numeric_limits<double>::epsilon() * std::abs(info.t)) return;
-  throw RunError(position() + "the step has shrunk to the resolution of time" + cause() +
-                     "; raise integrator.rtol, lower integrator.h_max or check the loads",
+  throw RunError(position() + explained("the step has shrunk to the resolution of time",
+                                        "; raise integrator.rtol, lower integrator.h_max or check the loads"),
                  Reason::step_too_small);
 }
 
@@ -159,8 +159,8 @@ std::string SundialsIntegrator::position() const {
   return fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t_, current_step());
 }
 
-std::string SundialsIntegrator::cause() const {
-  return callback_context_.recoverable_cause.empty() ? "" : " (" + callback_context_.recoverable_cause + ")";
+std::string SundialsIntegrator::explained(const std::string& problem, const std::string& advice) const {
+  return callback_context_.recoverable_cause.explain(problem, advice);
 }
 
 void SundialsIntegrator::interpolate(double t, State& out) const {
@@ -230,13 +230,15 @@ void SundialsIntegrator::fail(int flag) {
   const Reason reason = classify(flag);
   switch (reason) {
     case Reason::error_test:
-      throw RunError(position() + "the error test keeps failing" + cause() +
-                         "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads",
-                     reason);
+      throw RunError(
+          position() + explained("the error test keeps failing",
+                                 "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads"),
+          reason);
     case Reason::newton: throw RunError(position() + iteration_failure(), reason);
     case Reason::force:
-      throw RunError(position() + "the force cannot be evaluated" + cause() + "; lower integrator." +
-                         (adaptive() ? "h_max" : "step") + " or check the loads",
+      throw RunError(position() + explained("the force cannot be evaluated", std::string("; lower integrator.") +
+                                                                                 (adaptive() ? "h_max" : "step") +
+                                                                                 " or check the loads"),
                      reason);
     case Reason::diverged:
       throw RunError(
@@ -250,11 +252,12 @@ void SundialsIntegrator::fail(int flag) {
 }
 
 std::string SundialsIntegrator::iteration_failure() const {
-  return "Newton's method does not converge" +
-         (adaptive()
-              ? " at the smallest step" + cause() +
-                    "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements"
-              : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted elements");
+  const std::string problem = "Newton's method does not converge";
+  if (adaptive())
+    return explained(problem + " at the smallest step",
+                     "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements");
+  return explained(problem,
+                   "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted elements");
 }
 
 int SundialsIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {

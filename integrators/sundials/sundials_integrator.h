@@ -112,7 +112,8 @@ class SundialsIntegrator : public Integrator {
   }
 
   double current_step() const;  // length of the step being tried, s
-  std::string cause() const;    // " (why the model refused the last state)", or empty
+  // "problem (why the model refused the last state)advice": Cause::explain().
+  std::string explained(const std::string& problem, const std::string& advice) const;
 
   // Computes a = M^-1 f (m/s^2) at (t, y). For use in callbacks: returns 0, +1 (recoverable) or -1 (fatal), throws
   // nothing.

@@ -34,6 +34,7 @@ class EquilibriumSolver {
     double residual = 0;           // largest component of f, N
     bool above_tolerance = false;  // found, but round-off keeps the residual above its tolerance
     std::string failure_reason;    // empty if found
+    bool names_remedy = false;     // the reason is that of a LimitError
   };
 
   // Results of a factorisation of K at an equilibrium.

@@ -289,6 +289,10 @@ void LoadStepper::stop_at(const CriticalPoint& point) const {
 }
 
 void LoadStepper::give_up() const {
+  if (const auto& attempt = tracer_->last_attempt(); attempt.names_remedy && !attempt.found && !passes_through_)
+    throw RunError(
+        fmt::format("no equilibrium was found beyond load factor {:.6g}: {}", state_.t, attempt.failure_reason),
+        Reason::newton);
   throw RunError(fmt::format("no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
                              "(statics.min_step): {}. This does not mean that none exists: reduce statics.min_step or "
                              "the loads, or compute the damped motion to rest (analysis: dynamic)",

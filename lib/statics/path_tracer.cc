@@ -124,6 +124,7 @@ bool PathTracer::complete(PathState& next) {
 std::nullopt_t PathTracer::fail(const char* why) {
   attempt_.found = false;
   attempt_.failure_reason = why;
+  attempt_.names_remedy = false;
   return std::nullopt;
 }
 

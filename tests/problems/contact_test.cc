@@ -1,5 +1,6 @@
 // Motions of bodies that touch: an impact with an exact solution, conservation, equilibrium.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,6 +84,49 @@ integrator: {type: cvode_bdf, rtol: 1e-6}
   for (std::size_t i = 0; i < s.mesh().nodes.size(); ++i)
     if (s.mesh().nodes[i][2] == 1) top = std::min(top, u(2, static_cast<Eigen::Index>(i)));
   EXPECT_NEAR(top, -(2.0 / 100 + 2.0 / 400 + 0.5e-3), 1e-4);
+}
+
+// A block that slides farther than `slide` allows, or lies farther at the start.
+std::string sliding_block(double slide, const std::string& integrator) {
+  return fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {{mesh: {{type: box, size: [1, 0.3, 0.1], cells: [10, 2, 1], elements: hexahedra, order: 1}}}}
+    upper: {{mesh: {{type: box, size: [0.25, 0.25, 0.1], cells: [2, 2, 1], elements: hexahedra, order: 1}}, translation: [0.02, 0.03, 0.0999]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}
+clamps: [{{surface: lower.z0}}]
+terms: [{{type: contact, between: [lower.z1, upper.z0], stiffness: 1e7, slide: {}}}]
+initial: {{velocity: [1, 0, 0]}}
+gravity: [0, 0, -10]
+time: {{end: 0.5}}
+integrator: {{type: {}}}
+)",
+                     slide, integrator);
+}
+
+TEST(Contact, ASlideThatIsTooSmallIsNamedWithoutOtherAdvice) {
+  for (const char* type :
+       {"ida_bdf", "cvode_bdf", "generalized_alpha", "generalized_alpha, step: 5e-3", "central_differences"}) {
+    const BuiltTestScene s(sliding_block(0.3, type));
+    const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+    const Outcome outcome = run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {}, {false});
+    EXPECT_EQ(outcome.status, Outcome::Status::failed) << type;
+    EXPECT_THAT(outcome.message, testing::HasSubstr("stopped at t = 0.1")) << type;
+    EXPECT_THAT(outcome.message, testing::HasSubstr("terms.0: nodes that are 0.3")) << type;
+    EXPECT_THAT(outcome.message, testing::EndsWith("touch, but `slide` is 0.3 m: raise it")) << type;
+    EXPECT_THAT(outcome.message, testing::Not(testing::HasSubstr("integrator"))) << type;
+  }
+}
+
+TEST(Contact, ASlideThatIsTooSmallAtTheStartIsRefused) {
+  try {
+    set_up(Config::from_text(sliding_block(0.01, "ida_bdf"), "scene.yaml"));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(), testing::StartsWith("scene.yaml:9:"));
+    EXPECT_THAT(e.what(), testing::EndsWith("touch, but `slide` is 0.01 m: raise it"));
+  }
 }
 
 // A block on an inclined plane, which is the ground or the face of a clamped body, with mu below and above the tangent

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "lib/core/cause.h"
 #include "lib/fem/contact/barrier.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/edge_weight.h"
@@ -41,6 +42,7 @@ struct BarrierLaw {
   double gap = 0;        // m
   Friction friction = {};
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
+  std::string place = {};            // in the input, for messages
 };
 
 class BarrierContact : public Term, public Contact {
@@ -185,8 +187,8 @@ class BarrierContact : public Term, public Contact {
 
   void require_near(const NearPlace& place) const {
     if (const double apart = farthest_apart(place, rest_); apart > *law_.slide)
-      throw RecoverableError(
-          fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
+      throw LimitError(fmt::format("{}: nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
+                                   law_.place, apart, *law_.slide));
   }
 
   static EdgeWeight weight_of(const NearPlace& place) {
@@ -274,7 +276,7 @@ class BarrierContactChoice : public TermChoice {
       require_apart(first, *second, between_, origin);
     }
     const BarrierLaw law{
-        stiffness_, allowed_gap(first, second ? *second : first, body.rest), {friction_, creep_}, slide_};
+        stiffness_, allowed_gap(first, second ? *second : first, body.rest), {friction_, creep_}, slide_, origin.where};
     const std::string name = is_of_one() ? fmt::format("barrier contact of {} with itself", between_[0])
                                          : fmt::format("barrier contact of {} and {}", between_[0], between_[1]);
     return std::make_unique<BarrierContact>(name, law, std::move(first), std::move(second), body.rest, body.pattern);

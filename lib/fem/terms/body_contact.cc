@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "lib/core/cause.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/passing_time.h"
@@ -25,6 +26,7 @@ struct ContactLaw {
   double reach = 0;      // m; deeper nodes are not in contact
   Friction friction = {};
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
+  std::string place = {};            // in the input, for messages
 };
 
 class BodyContact : public Term, public Contact {
@@ -159,8 +161,9 @@ class BodyContact : public Term, public Contact {
     if (!law_.slide) return;
     for (const int corner : touch.triangle)
       if (const double apart = (rest_.col(corner) - rest_.col(touch.point)).norm(); apart > *law_.slide)
-        throw RecoverableError(
-            fmt::format("nodes that are {:.3g} m apart at rest touch in the {}: raise its `slide`", apart, name_));
+        throw LimitError(
+            fmt::format("{}: nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
+                        law_.place, apart, *law_.slide));
   }
 
   std::string name_;
@@ -209,7 +212,8 @@ class BodyContactChoice : public TermChoice {
     require_apart(first, second, between_, origin);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
     const ContactLaw law{
-        stiffness_, onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}, slide_};
+        stiffness_,  onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}, slide_,
+        origin.where};
     return std::make_unique<BodyContact>(fmt::format("contact of {} and {}", between_[0], between_[1]), law,
                                          std::move(first), std::move(second), body.rest, body.pattern);
   }

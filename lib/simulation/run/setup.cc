@@ -8,6 +8,7 @@
 
 #include "lib/analysis/scales.h"
 #include "lib/analysis/strain_check.h"
+#include "lib/core/cause.h"
 #include "lib/core/spelling.h"
 #include "lib/linear/blas.h"
 #include "lib/scene/events.h"
@@ -113,6 +114,8 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
   try {
     built.model->force(start.t, start.q, start.v, force);
     if (built.model->space().is_finite(force)) return;
+  } catch (const LimitError& e) {
+    throw ConfigError(e.what());
   } catch (const RecoverableError& e) {
     reason = e.what();
   }
