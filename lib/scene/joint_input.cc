@@ -127,7 +127,7 @@ void check_drive(const JointInput& joint, const Config& config) {
 void check_joint(const JointInput& joint, const Config& config) {
   require_name_for_csv(joint.name, {config.at("name").where()});
   check_drive(joint, config);
-  const bool at_point = joint.type == JointType::ball || joint.type == JointType::fixed;
+  const bool at_point = joint.is_at_a_point();
   if (at_point && !joint.at) config.fail("a ball or fixed joint needs `at`, a point of both bodies");
   if (at_point && (joint.from || joint.to)) config.fail("a ball or fixed joint has no `from` and `to`; give `at`");
   if (!at_point && joint.at) config.at("at").fail("is for ball and fixed joints; give `from` and `to`");

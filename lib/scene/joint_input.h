@@ -83,6 +83,7 @@ struct JointInput {
   SourceLocation origin;
   static const Spec<JointInput>& spec();
 
+  bool is_at_a_point() const { return type == JointType::ball || type == JointType::fixed; }
   bool turns() const { return type == JointType::hinge; }
   bool slides() const { return type == JointType::slot || type == JointType::cylindrical || type == JointType::slider; }
   JointLaw law() const;

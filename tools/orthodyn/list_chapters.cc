@@ -104,6 +104,7 @@ void list_terms() {
 const char* sentence_of(JointType type) {
   switch (type) {
     case JointType::ball: return "Holds the point `at` of both bodies together.";
+    case JointType::fixed: return "Holds the point `at` of both bodies together, which do not turn against each other.";
     case JointType::hinge:
       return "Holds the points `from` and `to` of both bodies together: they turn about the line through them.";
     case JointType::distance:
@@ -121,13 +122,14 @@ const char* sentence_of(JointType type) {
 std::vector<Key> keys_of(JointType type) {
   JointInput joint;
   joint.type = type;
-  const bool is_ball = type == JointType::ball;
   std::vector<Key> out;
   for (Key key : JointInput::spec().keys()) {
     const auto is_any_of = [&](std::initializer_list<const char*> names) {
       return std::find(names.begin(), names.end(), key.name) != names.end();
     };
-    if (is_any_of({"type"}) || (is_any_of({"at"}) && !is_ball) || (is_any_of({"from", "to"}) && is_ball)) continue;
+    if (is_any_of({"type"}) || is_any_of(joint.is_at_a_point() ? std::initializer_list<const char*>{"from", "to"}
+                                                               : std::initializer_list<const char*>{"at"}))
+      continue;
     if (is_any_of({"spring", "stop", "friction", "load", "motor"}) && !joint.turns() && !joint.slides()) continue;
     key.required = key.required || is_any_of({"at", "from", "to"});
     out.push_back(key);
