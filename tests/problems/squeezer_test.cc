@@ -91,8 +91,8 @@ struct Method {
 class Squeezer : public testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Squeezer,
                          testing::Values(Method{"ida_bdf, max_order: 2", 2, 1e-7}, Method{"ida_bdf", 5, 1e-9},
-                                         Method{"cvode_bdf, max_order: 2", 2, 1e-7}, Method{"generalized_alpha", 2, 1e-7},
-                                         Method{"hht_alpha", 2, 1e-7}));
+                                         Method{"cvode_bdf, max_order: 2", 2, 1e-7},
+                                         Method{"generalized_alpha", 2, 1e-7}, Method{"hht_alpha", 2, 1e-7}));
 
 // A step of a method of order p has the error h^(p+1), and the motion the error h^p = rtol^(p/(p+1)).
 TEST_P(Squeezer, EndsInThePublishedState) {
