@@ -49,4 +49,22 @@ std::vector<std::pair<int, double>> contact_areas(const Mesh& mesh, const std::v
   return {areas.begin(), areas.end()};
 }
 
+std::vector<std::pair<int, double>> contact_areas_of(const Subdomain& subdomain,
+                                                     const std::vector<std::pair<int, double>>& areas,
+                                                     const FaceMiddles& middles, FaceMiddles& here) {
+  std::vector<std::pair<int, double>> out;
+  for (const auto& [point, area] : areas) {
+    if (!middles.has(point)) {
+      if (subdomain.owns(point)) out.emplace_back(subdomain.local(point), area);
+      continue;
+    }
+    const std::span<const int> face = middles.face(point);
+    if (!subdomain.has_face(FaceCorners(face.first(face.size() / 2)))) continue;
+    std::vector<int> nodes;
+    for (const int node : face) nodes.push_back(subdomain.local(node));
+    out.emplace_back(here.add(nodes), area);
+  }
+  return out;
+}
+
 }  // namespace orthodyn

@@ -24,6 +24,7 @@ class FaceMiddles {
   explicit FaceMiddles(int first) : first_(first) {}
 
   bool empty() const { return faces_.empty(); }
+  bool has(int point) const { return point >= first_; }
   int end() const { return first_ + static_cast<int>(faces_.size()); }  // the number of the next middle
 
   // Adds a face of six or eight nodes, corners first. Returns the number of its middle.
@@ -34,9 +35,14 @@ class FaceMiddles {
   // visit(node, weight) of a point.
   template <class Visit>
   void for_each_node(int point, Visit&& visit) const {
-    if (point < first_) return void(visit(point, 1.0));
+    if (!has(point)) return void(visit(point, 1.0));
     const Face& face = faces_[static_cast<std::size_t>(point - first_)];
     for (int k = 0; k < face.size; ++k) visit(face.nodes[static_cast<std::size_t>(k)], face.weight(k));
+  }
+  // The nodes of the face around a middle.
+  std::span<const int> face(int middle) const {
+    const Face& face = faces_[static_cast<std::size_t>(middle - first_)];
+    return {face.nodes.data(), static_cast<std::size_t>(face.size)};
   }
   // The sum of |w_k| of a point.
   double sum_of_weights(int point) const;
@@ -72,5 +78,10 @@ class PointState {
 // The points of faces and their areas (m^2), ascending; adds the middles of faces.
 std::vector<std::pair<int, double>> contact_areas(const Mesh& mesh, const std::vector<FaceCorners>& faces,
                                                   FaceMiddles& middles);
+
+// The points of one rank, and their areas: its own nodes, and the middles of its faces, which are added to `here`.
+std::vector<std::pair<int, double>> contact_areas_of(const Subdomain& subdomain,
+                                                     const std::vector<std::pair<int, double>>& areas,
+                                                     const FaceMiddles& middles, FaceMiddles& here);
 
 }  // namespace orthodyn

@@ -49,8 +49,9 @@ class GroundContact : public Term, public Contact {
   }
 
   std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
-    if (!middles_.empty()) return nullptr;
-    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), middles_, pattern_);
+    FaceMiddles middles(subdomain.num_nodes());
+    auto areas = contact_areas_of(subdomain, areas_, middles_, middles);
+    return std::make_unique<GroundContact>(plane_, std::move(areas), std::move(middles), pattern_);
   }
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
 
