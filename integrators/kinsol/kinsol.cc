@@ -29,7 +29,6 @@ Vector unit_random_vector(const Model& model) {
 // Explains a flag of KINSol(), with the key that may help.
 std::string failure_message(int flag, const KinsolOptions& options, bool stiffness_is_exact,
                             const CallbackContext& context) {
-  if (context.recoverable_cause.is_limit()) return context.recoverable_cause.text();
   const std::string cause = context.recoverable_cause.in_brackets();
   const std::string approximate = stiffness_is_exact ? ""
                                                      : "; the stiffness is approximate: set elasticity.warped_tangent: "
@@ -42,7 +41,7 @@ std::string failure_message(int flag, const KinsolOptions& options, bool stiffne
     case KIN_LSETUP_FAIL: return "the stiffness is singular";
     case KIN_FIRST_SYSFUNC_ERR:
     case KIN_SYSFUNC_FAIL:
-    case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
+    case KIN_REPTD_SYSFUNC_ERR: return context.recoverable_cause.explain("the forces could not be evaluated", "");
     case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small to reduce the residual" + cause;
     default: return "KINSOL says: " + context.message;
   }
@@ -129,7 +128,9 @@ class Kinsol : public EquilibriumSolver {
       attempt.above_tolerance = !within_tolerance;
     } else {
       attempt.failure_reason = failure_message(flag, options_, path_.traits().exact_stiffness, callback_context_);
-      attempt.names_remedy = callback_context_.recoverable_cause.is_limit();
+      attempt.names_remedy =
+          callback_context_.recoverable_cause.is_limit() &&
+          (flag == KIN_FIRST_SYSFUNC_ERR || flag == KIN_SYSFUNC_FAIL || flag == KIN_REPTD_SYSFUNC_ERR);
     }
     return attempt;
   }

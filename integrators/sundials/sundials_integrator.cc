@@ -230,10 +230,9 @@ void SundialsIntegrator::fail(int flag) {
   const Reason reason = classify(flag);
   switch (reason) {
     case Reason::error_test:
-      throw RunError(
-          position() + explained("the error test keeps failing",
-                                 "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads"),
-          reason);
+      throw RunError(position() + "the error test keeps failing" + callback_context_.recoverable_cause.in_brackets() +
+                         "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads",
+                     reason);
     case Reason::newton: throw RunError(position() + iteration_failure(), reason);
     case Reason::force:
       throw RunError(position() + explained("the force cannot be evaluated", std::string("; lower integrator.") +

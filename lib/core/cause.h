@@ -3,15 +3,9 @@
 
 #include <string>
 
-#include "lib/core/errors.h"
+#include "lib/core/limit_error.h"
 
 namespace orthodyn {
-
-// A state beyond a limit of the input. what() tells the limit and the remedy: solvers add no advice of their own.
-class LimitError : public RecoverableError {
- public:
-  using RecoverableError::RecoverableError;
-};
 
 // The message of a RecoverableError; empty before note().
 class Cause {

@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "lib/fem/fem_model.h"
-#include "lib/ode/constraints_at.h"
 
 namespace orthodyn {
 
@@ -91,15 +88,6 @@ double rate_of_motor(const JointEquation& e, double t, const NodalVector& u) {
   const Turn turn = turn_of(e, t);
   const Vec3 r = spans_of(e, turn, Place{u}).r;
   return r.dot(combined(e, turn.third_rate, turn.fourth_rate, Place{u})) / e.length();
-}
-
-// The joint that has this constraint.
-const Joint& joint_of(const FemModel::Parts& parts, int constraint) {
-  int first = 0;
-  for (const Joint& joint : parts.joints)
-    for (const JointEquation& equation : joint.equations)
-      if (first += equation.size(); constraint < first) return joint;
-  throw std::logic_error("no such constraint");
 }
 
 class JointConstraints final : public Constraints {
@@ -277,81 +265,6 @@ const JointEquation* Joint::motor() const {
   for (const JointEquation& e : equations)
     if (e.is_driven()) return &e;
   return nullptr;
-}
-
-namespace {
-
-// The coordinate of a driven joint must be that of its motor at the start.
-void require_motors_at_start(const FemModel& model, const State& state) {
-  constexpr double kApart = 1e-9;
-  const NodalExpansion nodal(model.parts(), state.t, state.q, state.v);
-  for (const Joint& joint : model.parts().joints) {
-    const JointEquation* driven = joint.motor();
-    if (!driven) continue;
-    const double found = joint.coordinate->value(nodal.u), wanted = driven->motor.value(state.t);
-    const bool is_angle = joint.coordinate->is_angle();
-    const double apart = is_angle ? std::remainder(wanted - found, 2 * std::acos(-1.0)) : wanted - found;
-    const double scale = is_angle ? 1 : driven->length();
-    if (!(std::abs(apart) <= kApart * scale))
-      throw ConfigError(joint.place, fmt::format("motor: `to` times `factor` is {0:.4g} {2} at the start, where the "
-                                                 "coordinate is {1:.4g} {2}; let the factor begin there",
-                                                 wanted, found, joint.coordinate->unit()));
-  }
-}
-
-}  // namespace
-
-double start_consistently(const FemModel& model, State& state) {
-  const Constraints* constraints = model.constraints();
-  if (!constraints) return 0;
-  require_motors_at_start(model, state);
-  constexpr double kApart = 1e-9, kDependent = 1e-10;  // relative to the body, and of eigenvalues
-  const auto fail = [&](Eigen::Index constraint, const std::string& what) {
-    const int k = static_cast<int>(constraint);
-    throw ConfigError(joint_of(model.parts(), k).place, fmt::format("{} {}", constraints->name(k), what));
-  };
-  const int m = constraints->size();
-  Vector g(m);
-  constraints->values(state.t, state.q, g);
-  Eigen::Index worst = 0;
-  const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
-  if (const double apart = g.cwiseAbs().maxCoeff(&worst); apart > kApart * extent)
-    fail(worst, fmt::format("{} {:.3g} m apart at the start; the initial displacement must {}",
-                            joint_of(model.parts(), static_cast<int>(worst)).of == Joint::Of::rigid_body
-                                ? "has nodes whose distances change by up to"
-                                : "has points",
-                            apart,
-                            joint_of(model.parts(), static_cast<int>(worst)).of == Joint::Of::rigid_body
-                                ? "not deform rigid regions"
-                                : "keep joints together"));
-  const ConstraintsAt at(model, state.t, state.q);
-  const Eigen::MatrixXd& H = at.matrix();
-  const Vector scale = H.diagonal().cwiseSqrt().cwiseInverse();
-  for (Eigen::Index k = 0; k < m; ++k)
-    if (!std::isfinite(scale[k]))
-      fail(k, "holds nothing that can move: all its nodes are clamped or moved, or belong to one rigid body");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
-  if (eigen.eigenvalues()[0] < kDependent) {
-    Vector share = eigen.eigenvectors().col(0).cwiseAbs();
-    for (Eigen::Index k = 0; k < m; ++k)  // joints are what a user can remove
-      if (joint_of(model.parts(), static_cast<int>(k)).of == Joint::Of::rigid_body) share[k] = 0;
-    share.maxCoeff(&worst);
-    fail(worst,
-         "is already held by the other joints and clamps in the rest shape: remove one of them, replace a hinge by a "
-         "ball or "
-         "cylindrical joint, give each joint of a deformable body nodes of its own, or draw links that are in line "
-         "there in "
-         "another position");
-  }
-  const Vector before = state.v;
-  at.fit(state.v);
-  Vector a(state.q.size());
-  if (const InternalVariables* internal = model.internal_variables(); internal && state.z.size() > 0)
-    internal->force(state.t, state.q, state.v, {InternalState::Kind::given, state.z.data(), 0}, a);
-  else model.force(state.t, state.q, state.v, a);
-  model.solve_mass(a);
-  state.lambda = at.multipliers(state.v, a);
-  return (state.v - before).lpNorm<Eigen::Infinity>();
 }
 
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts) {

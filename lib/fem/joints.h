@@ -70,12 +70,4 @@ struct Joint {
   const JointEquation* motor() const;  // null without a motor
 };
 
-class FemModel;
-struct State;
-
-// Makes a start satisfy the constraints of the model's joints: takes the least change of the velocities by the kinetic
-// energy, and computes the multipliers. Returns the largest change of a velocity, m/s. Throws ConfigError, with the
-// name of a joint, if points of joints are apart or if constraints depend on each other.
-double start_consistently(const FemModel& model, State& state);
-
 }  // namespace orthodyn

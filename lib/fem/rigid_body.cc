@@ -168,6 +168,7 @@ Joint RigidBody::rigidity(const Mesh& mesh) const {
 }
 
 void add_inertia(const Mesh& mesh, const std::vector<double>& density, std::vector<RigidBody>& bodies) {
+  if (bodies.empty()) return;
   std::vector<RigidBody*> body_of(mesh.nodes.size(), nullptr);
   for (RigidBody& body : bodies) {
     for (const int node : body.nodes()) body_of[static_cast<std::size_t>(node)] = &body;

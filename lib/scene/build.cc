@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/joint_start.h"
 #include "lib/fem/terms/joint_load.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/scene/added_laws.h"

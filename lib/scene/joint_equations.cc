@@ -11,10 +11,12 @@ namespace orthodyn {
 
 namespace {
 
-// The nodes' mean, their root mean square distance from it, and the two directions in which they spread most.
+// The root mean square distance of nodes from their mean, the two directions in which they spread most, and how much
+// they spread along the third one, relative to their size.
 struct Spread {
   double size;  // m
   Vec3 first, second;
+  double third;
 };
 
 Spread spread_of(const Mesh& mesh, const std::vector<int>& nodes) {
@@ -22,8 +24,8 @@ Spread spread_of(const Mesh& mesh, const std::vector<int>& nodes) {
   for (std::size_t k = 0; k < nodes.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = mesh.node(nodes[k]);
   x.colwise() -= Vec3(x.rowwise().mean());
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(x * x.transpose());
-  return {x.norm() / std::sqrt(static_cast<double>(x.cols())), eigen.eigenvectors().col(2),
-          eigen.eigenvectors().col(1)};
+  return {x.norm() / std::sqrt(static_cast<double>(x.cols())), eigen.eigenvectors().col(2), eigen.eigenvectors().col(1),
+          std::sqrt(std::max(eigen.eigenvalues()[0], 0.0)) / x.norm()};
 }
 
 // The points of the two bodies of a joint.
@@ -40,12 +42,16 @@ class Ends {
     return !found(first_, point).weights.empty() && (!joint_.second || !found(second_, point).weights.empty());
   }
 
-  // Of the nodes of the first deformable body, or of the first body.
+  // Of the nodes of the deformable end that is more nearly plane, or of the first body.
   Spread spread() const {
-    const End& end = first_.body && joint_.second ? second_ : first_;
-    const Spread spread = spread_of(mesh_, end.body ? end.body->nodes() : end.nodes);
-    if (spread.size == 0) joint_.origin.fail("one node cannot hold directions; select more nodes of the body");
-    return spread;
+    std::optional<Spread> flattest;
+    for (const auto& [end, given] : {std::pair(&first_, &joint_.first), std::pair(&second_, second_given())}) {
+      if (!given || (end->body && !are_rigid())) continue;
+      const Spread spread = spread_of(mesh_, end->body ? end->body->nodes() : end->nodes);
+      if (spread.size == 0) given->origin.fail("one node cannot hold directions; select more nodes of the body");
+      if (!flattest || (!end->body && spread.third < flattest->third)) flattest = spread;
+    }
+    return *flattest;
   }
 
   JointPoint first(const Vec3& point) const { return held(joint_.first, first_, point); }
@@ -65,6 +71,8 @@ class Ends {
       if (body.contains(out.nodes)) out.body = &body;
     return out;
   }
+
+  const JointEnd* second_given() const { return joint_.second ? &*joint_.second : nullptr; }
 
   JointPoint found(const End& end, const Vec3& point) const {
     return end.body ? end.body->point(mesh_, point) : joint_point(mesh_, end.nodes, point);
@@ -130,11 +138,13 @@ void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
 }
 
 // Two rigid bodies share a point, and three pairs of their directions stay at right angles. Other bodies share three
-// points of the plane in which the nodes of the first deformable one spread most.
+// points of the plane in which the nodes of a deformable one spread most.
 void add_fixed(const JointInput& joint, const Ends& ends, Joint& out) {
   const Vec3 at = *joint.at;
   const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
-  const auto [size, a, b] = ends.spread();
+  const Spread spread = ends.spread();
+  const double size = spread.size;
+  const Vec3 &a = spread.first, &b = spread.second;
   out.equations = {coincide(at)};
   if (!ends.are_rigid()) {
     out.equations.push_back(coincide(at + size * a));

@@ -43,6 +43,15 @@ initial: {velocity: [0, 0, -1], spin: [0, 2, 0]}
 gravity: [0, 0, -9.81]
 terms: [{type: ground_contact, point: [0, 0, -0.005], stiffness: 1.0e7}]
 )"},
+          {"touching_quadratic", fine + head + R"(
+initial: {velocity: [0.3, 0, -1], spin: [0, 2, 0]}
+terms: [{type: ground_contact, point: [0, 0, -0.005], stiffness: 1.0e7, friction: 0.3}]
+)"},
+          {"touching_hexahedra",
+           "mesh: {type: box, size: [1, 0.2, 0.1], cells: [6, 2, 2], elements: hexahedra}\n" + head + R"(
+initial: {velocity: [0.3, 0, -1], spin: [0, 2, 0]}
+terms: [{type: ground_contact, point: [0, 0, -0.005], stiffness: 1.0e7, friction: 0.3}]
+)"},
           {"tied", box + head + R"(
 clamps: [{surface: z0}]
 terms:

@@ -11,6 +11,7 @@ namespace orthodyn::assemblies_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // A rigid bar swings about a hinge and hits a soft block.
 const char* const kGong = R"(
@@ -38,6 +39,7 @@ TEST_F(Resume, BodiesThatAreJoinedAndTouchGoOn) {
   ASSERT_EQ(first.exit_code, 0) << first.output;
   const auto longer = orthodyn("run gong.yaml --quiet --out part --resume --set time.end=0.3");
   ASSERT_EQ(longer.exit_code, 0) << longer.output;
+  ASSERT_EQ(record("part").at("restarts").size(), 1u);
   ASSERT_EQ(orthodyn("run gong.yaml --quiet --out whole --set time.end=0.3").exit_code, 0);
   const auto a = read_rows(folder_ / "part/probes.csv"), b = read_rows(folder_ / "whole/probes.csv");
   ASSERT_EQ(a.back().at(0), b.back().at(0));
@@ -80,9 +82,9 @@ integrator: {{type: ida_bdf}}
 
 TEST(ContactChecks, TellOfOverlaps) {
   const std::string plain = "elements: hexahedra, order: 1";
-  EXPECT_EQ(warnings_of(plain, "contact", 1.01), "");
+  EXPECT_THAT(warnings_of(plain, "contact", 1.01), Not(HasSubstr("overlap")));
   EXPECT_THAT(warnings_of(plain, "contact", 0.99), HasSubstr("contact of lower and upper: the bodies overlap"));
-  EXPECT_EQ(warnings_of(plain, "barrier_contact", 1.05), "");
+  EXPECT_THAT(warnings_of(plain, "barrier_contact", 1.05), Not(HasSubstr("far nearer")));
   EXPECT_THAT(warnings_of(plain, "barrier_contact, gap: 0.1", 1.005), HasSubstr("far nearer than the gap"));
 }
 

@@ -18,7 +18,10 @@ class Contact {
   // Model::longest_step() of this contact.
   virtual double longest_step(const NodalState&) const { return std::numeric_limits<double>::infinity(); }
 
-  // The depth (m) of a penalty of the same stiffness that has the largest pressure. 0 for a plane.
+  // Whether states in which surfaces cross have no force.
+  virtual bool refuses_crossing() const { return false; }
+
+  // The largest pressure over the stiffness, m. 0 for a plane.
   virtual double pressed_depth(const NodalState&) const { return 0; }
 };
 

@@ -83,11 +83,11 @@ ContactSurface::ContactSurface(const Mesh& mesh, const std::vector<FaceCorners>&
       areas_(contact_areas(mesh, faces, middles_)),
       thickness_(least_height(mesh, faces)) {
   const Cells cells = face_cells(mesh, faces);
-  int middle = first_middle.value_or(static_cast<int>(mesh.nodes.size()));
+  int middle = middles_.first();
   std::map<std::pair<int, int>, std::vector<std::size_t>> uses;  // triangles of an edge
   for (std::size_t k = 0; k < cells.size(); ++k) {
     std::vector<int> points(cells[k].begin(), cells[k].end());
-    if (points.size() == 6 || points.size() == 8) points.push_back(middle++);
+    if (FaceMiddles::has_middle(static_cast<int>(points.size()))) points.push_back(middle++);
     for (const auto& corners : triangles_of(cells.shape(k))) {
       Corners& of = triangles_.emplace_back();
       for (std::size_t c = 0; c < 3; ++c) of[c] = points[static_cast<std::size_t>(corners[c])];

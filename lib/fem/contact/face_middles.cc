@@ -9,7 +9,7 @@
 namespace orthodyn {
 
 int FaceMiddles::add(std::span<const int> nodes) {
-  Face& face = faces_.emplace_back();
+  NodesOfFace& face = faces_.emplace_back();
   face.size = static_cast<int>(nodes.size());
   std::copy(nodes.begin(), nodes.end(), face.nodes.begin());
   return end() - 1;
@@ -44,7 +44,7 @@ std::vector<std::pair<int, double>> contact_areas(const Mesh& mesh, const std::v
       areas[nodes[k]] += whole * F::kPointShares[k];
       middle -= F::kPointShares[k];
     }
-    if constexpr (F::kNodes == 6 || F::kNodes == 8) areas[middles.add(nodes)] += whole * middle;
+    if (FaceMiddles::has_middle(F::kNodes)) areas[middles.add(nodes)] += whole * middle;
   });
   return {areas.begin(), areas.end()};
 }

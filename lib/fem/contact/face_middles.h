@@ -20,11 +20,14 @@ namespace orthodyn {
 
 class FaceMiddles {
  public:
+  static bool has_middle(int nodes_of_face) { return nodes_of_face == 6 || nodes_of_face == 8; }
+
   // No middles; the first one to be added has the number `first`, at least that of nodes.
   explicit FaceMiddles(int first) : first_(first) {}
 
   bool empty() const { return faces_.empty(); }
   bool has(int point) const { return point >= first_; }
+  int first() const { return first_; }
   int end() const { return first_ + static_cast<int>(faces_.size()); }  // the number of the next middle
 
   // Adds a face of six or eight nodes, corners first. Returns the number of its middle.
@@ -36,12 +39,12 @@ class FaceMiddles {
   template <class Visit>
   void for_each_node(int point, Visit&& visit) const {
     if (!has(point)) return void(visit(point, 1.0));
-    const Face& face = faces_[static_cast<std::size_t>(point - first_)];
+    const NodesOfFace& face = faces_[static_cast<std::size_t>(point - first_)];
     for (int k = 0; k < face.size; ++k) visit(face.nodes[static_cast<std::size_t>(k)], face.weight(k));
   }
   // The nodes of the face around a middle.
   std::span<const int> face(int middle) const {
-    const Face& face = faces_[static_cast<std::size_t>(middle - first_)];
+    const NodesOfFace& face = faces_[static_cast<std::size_t>(middle - first_)];
     return {face.nodes.data(), static_cast<std::size_t>(face.size)};
   }
   // The sum of |w_k| of a point.
@@ -51,13 +54,13 @@ class FaceMiddles {
   const NodalVector& values(const NodalVector& nodal, NodalVector& storage) const;
 
  private:
-  struct Face {
+  struct NodesOfFace {
     std::array<int, 8> nodes;
     int size;
     double weight(int k) const { return size == 6 ? (k < 3 ? -1.0 / 9 : 4.0 / 9) : (k < 4 ? -0.25 : 0.5); }
   };
   int first_;
-  std::vector<Face> faces_;
+  std::vector<NodesOfFace> faces_;
 };
 
 // Positions x (m) and velocities v (m/s) of all points, from those of nodes. Without `moves`, v is empty.
@@ -75,7 +78,7 @@ class PointState {
   const NodalVector &x, &v;
 };
 
-// The points of faces and their areas (m^2), ascending; adds the middles of faces.
+// The points of faces and their areas (m^2), ascending; adds the middles of faces, in the order of the faces.
 std::vector<std::pair<int, double>> contact_areas(const Mesh& mesh, const std::vector<FaceCorners>& faces,
                                                   FaceMiddles& middles);
 

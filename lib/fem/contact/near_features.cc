@@ -273,9 +273,9 @@ std::optional<int> node_below(const ContactSurface& own, const ContactSurface& o
   return std::nullopt;
 }
 
-RecoverableError crossing_error(int node, const NodalVector& x) {
-  return RecoverableError(fmt::format("surfaces touch or cross near [{:.4g}, {:.4g}, {:.4g}] m (node {})", x(0, node),
-                                      x(1, node), x(2, node), node));
+RecoverableError crossing_error(int point, const NodalVector& x) {
+  return RecoverableError(
+      fmt::format("surfaces touch or cross near [{:.4g}, {:.4g}, {:.4g}] m", x(0, point), x(1, point), x(2, point)));
 }
 
 }  // namespace
@@ -298,7 +298,7 @@ std::vector<NearPlace> NearFeatures::at(const NodalVector& x) const {
   if (first) add_nodes(second_, *first, region, gap_, out);
   add_edges(first_, second_, x, region, gap_, out);
   for (const NearPlace& place : out)
-    if (!(place.distance.r > 0)) throw RecoverableError(fmt::format("surfaces touch at node {}", place.points[0]));
+    if (!(place.distance.r > 0)) throw crossing_error(place.points[0], x);
   return out;
 }
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <optional>
 
-#include "lib/core/cause.h"
+#include "lib/core/limit_error.h"
 #include "lib/fem/contact/barrier.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/edge_weight.h"
@@ -141,11 +141,13 @@ class BarrierContact : public Term, public Contact {
   }
 
   const Contact* contact() const override { return this; }
+  bool refuses_crossing() const override { return true; }
 
-  // The gap; for energies E below e = k A gap^2/2, the part (E/e)^(1/3) of it.
+  // Ten times the gap, so that rtol 1e-3 is a hundredth of it; for energies E below e = k A gap^2/2, the part
+  // (E/e)^(1/3).
   double range(double energy) const override {
     const double area = std::max(largest_area(first_.areas()), second_ ? largest_area(second_->areas()) : 0);
-    return law_.gap * std::min(1.0, std::cbrt(energy / (law_.stiffness * area * law_.gap * law_.gap / 2)));
+    return 10 * law_.gap * std::min(1.0, std::cbrt(energy / (law_.stiffness * area * law_.gap * law_.gap / 2)));
   }
 
   double pressed_depth(const NodalState& s) const override {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "lib/core/cause.h"
+#include "lib/core/limit_error.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/passing_time.h"
@@ -129,7 +129,7 @@ class BodyContact : public Term, public Contact {
     const PointState at(middles_, s, false);
     double deepest = 0;
     for_each_touch(at.x, [&](const Touch& touch, double) { deepest = std::max(deepest, touch.distance.r); });
-    return deepest;
+    return penalty_slope(deepest, law_.onset);
   }
 
   double longest_step(const NodalState& s) const override {

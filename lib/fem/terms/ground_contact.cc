@@ -1,8 +1,8 @@
-// Contact with a rigid plane by a smooth penalty, with or without friction (lib/fem/contact/friction.h). A node at
-// position x has the depth d = (point - x) . n below the plane with normal n. With its surface area A and the stiffness
-// k (Pa/m), its energy is k A psi(d) (lib/fem/contact/penalty.h). The force is k A psi'(d) n, the stiffness k A
-// psi''(d) n n^T. The contact stiffness builds up over the depth w. The mean force between two states takes the mean of
-// psi' over the depths between them. Without damping, the plane returns all energy.
+// Contact with a rigid plane by a smooth penalty, with or without friction (lib/fem/contact/friction.h). A point
+// (face_middles.h) at position x has the depth d = (point - x) . n below the plane with normal n. With its surface area
+// A and the stiffness k (Pa/m), its energy is k A psi(d) (lib/fem/contact/penalty.h). The force is k A psi'(d) n, the
+// stiffness k A psi''(d) n n^T. The contact stiffness builds up over the depth w. The mean force between two states
+// takes the mean of psi' over the depths between them. Without damping, the plane returns all energy.
 #include <fmt/format.h>
 
 #include <algorithm>

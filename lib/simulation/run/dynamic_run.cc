@@ -5,6 +5,8 @@
 
 #include "lib/config/registry.h"
 #include "lib/config/values.h"
+#include "lib/core/spelling.h"
+#include "lib/fem/joint_start.h"
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
@@ -133,12 +135,29 @@ class DynamicAnalysis {
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     Outcome outcome = orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
+    if (outcome.status == Outcome::Status::failed) explain_by_joints(outcome);
     only_this_rank_failed_ =
         outcome.status == Outcome::Status::failed && only_this_rank_failed(setup_.built.model->ranks());
     if (!only_this_rank_failed_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
     const bool is_written = write_last_checkpoint(outcome, begin.begun, checkpointer);
     resumable = is_written || setup_.scene.checkpoint;
     return outcome;
+  }
+
+  // Solvers fail at the end of the range of a mechanism; their advice does not help there.
+  void explain_by_joints(Outcome& outcome) const {
+    if (outcome.reason == Reason::disk || outcome.reason == Reason::out_of_memory) return;
+    std::vector<std::string> joints;
+    try {
+      joints = joints_at_their_end(*setup_.built.model, outcome.last);
+    } catch (const RecoverableError&) {
+      return;
+    }
+    if (joints.empty()) return;
+    outcome.message = fmt::format(
+        "at t = {:.6g} s the mechanism cannot move on: the constraints of its joints {} depend on each other there, as "
+        "at the end of the range of a linkage or where links are in line; change lengths, motors or stops ({})",
+        outcome.last.t, join(joints), outcome.message.substr(0, outcome.message.find(';')));
   }
 
   // Upper bound of the checkpoint's size: displacements and velocities, three vectors of LinearityWatch, internal

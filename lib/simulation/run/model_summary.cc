@@ -31,7 +31,7 @@ ModelSummary summarize(const Setup& setup) {
   if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
   out.buckles = setup.linearity && setup.linearity->unstable();
   out.has_barrier = std::any_of(parts.loads.begin(), parts.loads.end(), [](const auto& term) {
-    return term->contact() && term->name().starts_with("barrier contact");
+    return term->contact() && term->contact()->refuses_crossing();
   });
   return out;
 }

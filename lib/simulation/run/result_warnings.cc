@@ -33,7 +33,7 @@ std::string drift_sentence(const EnergySummary& energy, bool is_by_barrier) {
       "error of the motion with --estimate-error, or use a smaller integrator.rtol or integrator.step";
   constexpr const char* kBarrier =
       "positions are not accurate to a small part of the gap of a barrier contact, or vibrations are not resolved. "
-      "Lower integrator.position_scale to about the gap, and integrator.rtol (of a fixed step, integrator.step)";
+      "Use a smaller integrator.rtol (of a fixed step, integrator.step), or a larger gap with a smaller stiffness";
   return fmt::format(
       "the energy balance drifts by {:.2g} of the largest energy{}: {}", energy.relative_drift,
       energy.states > 2 ? ""

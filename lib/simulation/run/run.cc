@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/cause.h"
+
 namespace orthodyn {
 
 namespace {
@@ -78,11 +80,13 @@ class Driver {
   void advance() {
     try {
       advance_to_end();
-    } catch (const RecoverableError& e) {  // of an observer; the integrator has accepted the state
+    } catch (const RecoverableError& e) {  // of a state that the integrator has accepted
+      Cause cause;
+      cause.note(e);
       throw RunError(
-          fmt::format("the state at t = {:.6g} s cannot be evaluated: {}; {}", observed_at_, e.what(),
-                      integrator_.adaptive() ? "lower integrator.rtol or integrator.h_max"
-                                             : "lower integrator.step, or use error control (integrator.rtol)"),
+          cause.explain(fmt::format("the state at t = {:.6g} s cannot be evaluated", observed_at_),
+                        integrator_.adaptive() ? "; lower integrator.rtol or integrator.h_max"
+                                               : "; lower integrator.step, or use error control (integrator.rtol)"),
           Reason::force);
     }
   }

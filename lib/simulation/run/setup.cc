@@ -8,7 +8,7 @@
 
 #include "lib/analysis/scales.h"
 #include "lib/analysis/strain_check.h"
-#include "lib/core/cause.h"
+#include "lib/core/limit_error.h"
 #include "lib/core/spelling.h"
 #include "lib/linear/blas.h"
 #include "lib/scene/events.h"
