@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/limit_error.h"
 #include "lib/fem/contact/barrier.h"
 #include "lib/fem/contact/near_features.h"
 #include "lib/fem/contact/passing_time.h"
@@ -130,6 +131,14 @@ TEST_P(BarrierContactOf, ForceAndTangentAreDerivatives) {
 }
 
 // Edges of both blocks are nearly parallel, so that their weights change.
+// The matrix has the entries of all nodes whose points may touch: those of middles, too.
+TEST_P(BarrierContactOf, TangentsAreThoseOfAllTouchingNodesWithSlide) {
+  const BuiltTestScene s(blocks(GetParam(), 0.03, 0.3, ", slide: 1.2"));
+  Random random(88);
+  const Vector q = random_dofs(random, s.size(), 1e-3), d = random_dofs(random, s.size(), 1e-3);
+  expect_derivative([&](double h) { return s.force(q + h * d); }, -s.stiffness(q) * d);
+}
+
 TEST_P(BarrierContactOf, NearlyParallelEdgesHaveTheirDerivatives) {
   const BuiltTestScene s(blocks(GetParam(), 0.03, 0.02));
   Random random(83);
@@ -297,7 +306,7 @@ TEST(BarrierContact, OfABodyWithItselfHasFriction) {
     return Vec3(Vec3(radius * std::sin(angle), x[1], -radius * std::cos(angle)) - x);
   });
   Random random(87);
-  const Vector v = random_dofs(random, s.size(), 0.1), d = random_dofs(random, s.size(), 1e-3);
+  const Vector v = random_dofs(random, s.size(), 0.1), d = random_dofs(random, s.size(), 0.1);
   const auto contact = s.model().only({s.model().force_parts().back()});
   const auto force = [&](const Vector& at) {
     Vector f(at.size());
@@ -318,17 +327,17 @@ TEST(BarrierContact, OfABodyWithItselfHasFriction) {
 
 // A block of which the far side touches later than `slide` allows has no force there, but an error.
 TEST(BarrierContact, StopsWhereItsSlideIsTooSmall) {
-  const BuiltTestScene s(blocks("cells: [3, 2, 1], order: 1", 0.03, 0, ", slide: 0.8"));
+  const BuiltTestScene s(blocks("cells: [3, 2, 1], order: 1", 0.03, 0, ", slide: 1"));
   const auto move = [&](double along) {
     return s.dofs([&](const Vec3& x) { return x[2] > 0.51 ? Vec3(along, 0, 0) : Vec3(Vec3::Zero()); });
   };
   EXPECT_GT(s.force(move(0)).norm(), 0);
   EXPECT_GT(s.force(move(-0.1)).norm(), 0);
   try {
-    s.force(move(-0.6));
+    s.force(move(-0.9));
     ADD_FAILURE() << "accepted";
-  } catch (const std::exception& e) {
-    EXPECT_THAT(e.what(), HasSubstr("slide"));
+  } catch (const LimitError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("`slide` is 1 m"));
   }
 }
 

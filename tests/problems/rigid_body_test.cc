@@ -286,32 +286,89 @@ integrator: {type: ida_bdf, rtol: 1e-6}
   EXPECT_LE(worst, 1e-5);
 }
 
-std::string sliding(const std::string& forces, double end, double rtol) {
-  return box(fmt::format("joints: [{{type: slider, name: rail, from: [0, 0, 0], to: [0, 1, 0], first: {{region: "
-                         "body}}, {}}}]\ninitial: {{velocity: [0, 2, 0]}}\ntime: {{end: {}}}",
-                         forces, end),
-             rtol);
-}
+// The box moves with 2 m/s along a slider, or turns with 2 rad/s about a hinge.
+struct Freedom {
+  const char *type, *start;
+  double inertia;  // kg, or kg m^2
+};
+class ForcesOfJoints : public testing::TestWithParam<Freedom> {
+ protected:
+  const double inertia = GetParam().inertia, energy = 2 * inertia;  // J
+  BuiltTestScene moving(const std::string& forces, double end, double rtol) const {
+    return BuiltTestScene(
+        box(fmt::format("joints: [{{type: {}, name: rail, from: [0, 0, 0], to: [0, 1, 0], first: {{region: body}}, "
+                        "{}}}]\ninitial: {{{}: [0, 2, 0]}}\ntime: {{end: {}}}",
+                        GetParam().type, forces, GetParam().start, end),
+            rtol));
+  }
+  static double coordinate(const BuiltTestScene& s, const State& state) {
+    return s.model().evaluate("coordinate.rail", state)[0];
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Types, ForcesOfJoints,
+                         testing::Values(Freedom{"slider", "velocity", 40}, Freedom{"hinge", "spin", kInertia[1]}));
 
-// The box hits a stop at 0.5 m: it turns back at the depth v sqrt(m/k) (beyond the onset), and loses no energy.
-TEST(Stops, ThrowBackWithoutLoss) {
+// The box hits a stop at 0.5 m or rad: it turns back at the depth v sqrt(m/k) (beyond the onset), and loses no energy.
+TEST_P(ForcesOfJoints, StopsThrowBackWithoutLoss) {
   double highest = 0;
-  const BuiltTestScene s(sliding("stop: {high: 0.5, stiffness: 1e5, onset: 1e-4}", 0.6, 1e-7));
-  const Motion motion = motion_of(
-      s, [&](const State& state) { highest = std::max(highest, s.model().evaluate("coordinate.rail", state)[0]); });
-  EXPECT_NEAR(s.model().evaluate("momentum.linear", motion.last)[1], -80, 80 * 1e-4);
-  const double depth = 2 * std::sqrt(40 / 1e5);
+  const BuiltTestScene s =
+      moving(fmt::format("stop: {{high: 0.5, stiffness: {}, onset: 1e-4}}", 2500 * inertia), 0.6, 1e-7);
+  const Motion motion = motion_of(s, [&](const State& state) { highest = std::max(highest, coordinate(s, state)); });
+  const double depth = 2 * std::sqrt(1 / 2500.0);
   EXPECT_NEAR(highest, 0.5 + depth, 0.02 * depth);
-  EXPECT_LE(std::abs(motion.drift), 1e-4 * 80);
+  EXPECT_NEAR(s.model().evaluate("energy.kinetic", motion.last)[0], energy, 1e-4 * energy);
+  EXPECT_LT(coordinate(s, motion.last), 0.5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * energy);
 }
 
 // Friction F brings the box to rest after v^2/(2 F/m); its heat is the kinetic energy.
-TEST(Friction, OfAJointStopsTheBox) {
-  const BuiltTestScene s(sliding("friction: {limit: 80, creep: 1e-3}", 2, 1e-6));
+TEST_P(ForcesOfJoints, FrictionStopsTheBox) {
+  const BuiltTestScene s = moving(fmt::format("friction: {{limit: {}, creep: 1e-3}}", 2 * inertia), 2, 1e-6);
   const Motion motion = motion_of(s);
-  EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], 1, 5e-3);
-  EXPECT_LE(s.model().evaluate("energy.kinetic", motion.last)[0], 1e-5);
-  EXPECT_LE(std::abs(motion.drift), 1e-3 * 80);
+  EXPECT_NEAR(coordinate(s, motion.last), 1, 5e-3);
+  EXPECT_LE(s.model().evaluate("energy.kinetic", motion.last)[0], 1e-6 * energy);
+  EXPECT_LE(std::abs(motion.drift), 1e-3 * energy);
+}
+
+// A damped spring: x(t) = v/w exp(-d t) sin(w t) with d = c/(2 m) and w^2 = k/m - d^2.
+TEST_P(ForcesOfJoints, SpringsSwingExactly) {
+  const BuiltTestScene s =
+      moving(fmt::format("spring: {{stiffness: {}, damping: {}}}", 25 * inertia, 0.5 * inertia), 1.3, 1e-7);
+  const Motion motion = motion_of(s);
+  const double d = 0.25, w = std::sqrt(25 - d * d), exact = 2 / w * std::exp(-1.3 * d) * std::sin(1.3 * w);
+  EXPECT_NEAR(coordinate(s, motion.last), exact, 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * energy);
+}
+
+// A motor between two free boxes turns them against each other: their momenta stay zero.
+TEST(Motors, BetweenFreeBodiesKeepMomentum) {
+  const BuiltTestScene s(R"(
+mesh:
+  type: bodies
+  bodies:
+    a: {mesh: {type: box, size: [1, 0.4, 0.2], cells: [1, 1, 1], order: 1, origin: [-1, -0.2, -0.1]}}
+    b: {mesh: {type: box, size: [0.6, 0.4, 0.2], cells: [1, 1, 1], order: 1, origin: [0, -0.2, -0.1]}}
+materials: {m: {type: isotropic, density: 500, young: 1e4, nu: 0.3}}
+regions: {all: {material: m, rigid: true}}
+joints:
+  - type: hinge
+    name: knee
+    from: [0, 0, 0]
+    to: [0, 1, 0]
+    first: {region: b}
+    second: {region: a}
+    motor: {to: 100 deg, factor: {type: smooth_step, end: 1}}
+time: {end: 0.6}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)");
+  const Motion motion = motion_of(s);
+  const double u = 0.6, wanted = 100 * kPi / 180 * u * u * u * (10 - 15 * u + 6 * u * u);
+  EXPECT_NEAR(s.model().evaluate("coordinate.knee", motion.last)[0], wanted, 1e-5);
+  const double size = std::sqrt(2 * 64 * s.model().evaluate("energy.kinetic", motion.last)[0]);  // kg m/s
+  ASSERT_GT(size, 10);
+  for (const char* kind : {"momentum.linear", "momentum.angular"})
+    for (const double component : s.model().evaluate(kind, motion.last)) EXPECT_LE(std::abs(component), 1e-4 * size);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * size * size / 128);
 }
 
 // A torque T cos(t) turns the box by T/J (1 - cos t) about its middle, a force F cos(t) moves it by F/m (1 - cos t).
@@ -340,15 +397,6 @@ TEST_P(LoadsOfJoints, MoveExactly) {
     EXPECT_LE(std::abs(motion.drift), 1e3 * rtol * 0.5 * inertia * std::pow(amount / inertia, 2));
     last = error;
   }
-}
-
-// A damped spring: x(t) = v/w exp(-d t) sin(w t) with d = 20/(2 m) and w^2 = k/m - d^2.
-TEST(Springs, OfAJointSwingExactly) {
-  const BuiltTestScene s(sliding("spring: {stiffness: 1000, damping: 20}", 1.3, 1e-7));
-  const Motion motion = motion_of(s);
-  const double d = 20 / 80.0, w = std::sqrt(25 - d * d), exact = 2 / w * std::exp(-1.3 * d) * std::sin(1.3 * w);
-  EXPECT_NEAR(s.model().evaluate("coordinate.rail", motion.last)[0], exact, 1e-5);
-  EXPECT_LE(std::abs(motion.drift), 1e-4 * 80);
 }
 
 }  // namespace
