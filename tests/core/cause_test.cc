@@ -14,10 +14,10 @@ TEST(Causes, OfALimitStandAlone) {
   EXPECT_EQ(cause.explain("the force cannot be evaluated", "; lower the step"),
             "the force cannot be evaluated (a spring has zero length); lower the step");
   EXPECT_FALSE(cause.is_limit());
-  cause.note(LimitError("nodes touch that are too far apart: raise `slide`"));
+  cause.note(LimitError("scene.yaml:9", "nodes touch that are too far apart: raise `slide`"));
   EXPECT_TRUE(cause.is_limit());
   EXPECT_EQ(cause.explain("the force cannot be evaluated", "; lower the step"),
-            "nodes touch that are too far apart: raise `slide`");
+            "scene.yaml:9: nodes touch that are too far apart: raise `slide`");
   cause.clear();
   EXPECT_TRUE(cause.empty());
   EXPECT_FALSE(cause.is_limit());

@@ -2,6 +2,7 @@
 // fuzzer fuzz_inputs (CMakeLists.txt), with few inputs and fixed seeds.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -18,6 +19,12 @@ double peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+// Ends the process after this time of computation; 0: no limit.
+void limit_cpu_seconds(int seconds) {
+  const itimerval timer{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
 std::vector<std::string> all_words() {
@@ -38,7 +45,8 @@ class MutatedInputs : public testing::TestWithParam<unsigned> {
   MutatedInputs() { limit_memory_of_meshes(); }
 };
 
-// If an input crashes the process or takes longer than a minute, its text is left in the folder of temporary files.
+// If an input crashes the process or computes for longer than a minute, its text is left in the folder of temporary
+// files.
 TEST_P(MutatedInputs, AreAcceptedOrRefusedWithAPlace) {
   const auto shipped = shipped_inputs();
   const auto words = all_words();
@@ -52,9 +60,9 @@ TEST_P(MutatedInputs, AreAcceptedOrRefusedWithAPlace) {
     input.text =
         random() % 4 == 0 ? with_mutated_bytes(input.text, random) : with_mutated_tree(input.text, words, random);
     std::ofstream(current, std::ios::binary) << input.text;
-    alarm(60);
+    limit_cpu_seconds(60);
     const auto [verdict, message] = judge(input);
-    alarm(0);
+    limit_cpu_seconds(0);
     accepted += verdict == Verdict::accepted;
     refused += verdict == Verdict::refused;
     EXPECT_NE(verdict, Verdict::bug) << input.path << " ended with\n" << message << "\n" << input.text;

@@ -246,7 +246,7 @@ TEST(Modal, RefusesDashpotsGroundAndTooFewModesForAStart) {
          "dashpots couples them");
   expect(refusal(clamp + "terms: [{type: ground_contact, point: [0, 0, -1], normal: [0, 0, 1], stiffness: 1e6}]\n",
                  "type: modal, modes: 5"),
-         "use no ground");
+         "use no contact");
   expect(refusal("", "type: modal, modes: 5"), "a free body has 6");
   expect(refusal(clamp + "initial: {velocity_field: [0, 0, \"x > 0.9 ? 1 : 0\"]}\n", "type: modal, modes: 1"),
          "keep more modes");

@@ -189,8 +189,9 @@ class BarrierContact : public Term, public Contact {
 
   void require_near(const NearPlace& place) const {
     if (const double apart = farthest_apart(place, rest_); apart > *law_.slide)
-      throw LimitError(fmt::format("{}: nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
-                                   law_.place, apart, *law_.slide));
+      throw LimitError(law_.place,
+                       fmt::format("nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
+                                   apart, *law_.slide));
   }
 
   static EdgeWeight weight_of(const NearPlace& place) {

@@ -161,9 +161,9 @@ class BodyContact : public Term, public Contact {
     if (!law_.slide) return;
     for (const int corner : touch.triangle)
       if (const double apart = (rest_.col(corner) - rest_.col(touch.point)).norm(); apart > *law_.slide)
-        throw LimitError(
-            fmt::format("{}: nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
-                        law_.place, apart, *law_.slide));
+        throw LimitError(law_.place,
+                         fmt::format("nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
+                                     apart, *law_.slide));
   }
 
   std::string name_;

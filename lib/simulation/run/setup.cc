@@ -115,7 +115,7 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
     built.model->force(start.t, start.q, start.v, force);
     if (built.model->space().is_finite(force)) return;
   } catch (const LimitError& e) {
-    throw ConfigError(e.what());
+    throw ConfigError(e.place(), e.message());
   } catch (const RecoverableError& e) {
     reason = e.what();
   }
