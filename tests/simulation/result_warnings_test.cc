@@ -23,15 +23,15 @@ RunResult drifting(bool has_barrier) {
   return result;
 }
 
-TEST(ResultWarnings, ADriftOfTheBalanceNamesThePositionScaleAtABarrier) {
+TEST(ResultWarnings, ADriftOfTheBalanceNamesTheGapOfABarrier) {
   const auto of = [](bool has_barrier) { return result_warnings(drifting(has_barrier)); };
   ASSERT_EQ(of(true).size(), 1u);
   EXPECT_THAT(of(true)[0], HasSubstr("drifts by 0.1 of the largest energy"));
-  EXPECT_THAT(of(true)[0], HasSubstr("integrator.position_scale"));
+  EXPECT_THAT(of(true)[0], HasSubstr("gap"));
   EXPECT_THAT(of(true)[0], HasSubstr("integrator.rtol"));
   ASSERT_EQ(of(false).size(), 1u);
   EXPECT_THAT(of(false)[0], HasSubstr("integrator.rtol"));
-  EXPECT_THAT(of(false)[0], Not(HasSubstr("position_scale")));
+  EXPECT_THAT(of(false)[0], Not(HasSubstr("gap")));
 }
 
 TEST(ResultWarnings, KnowBarriersByTheModel) {
