@@ -115,6 +115,8 @@ InputVerdict judge(const InputFileText& input) {
     return {};
   } catch (const ConfigError& e) {
     return {e.place().empty() ? Verdict::bug : Verdict::refused, e.what()};
+  } catch (const RunError& e) {  // of modes, which the limit of memory leaves to an iterative solver
+    return {std::string(e.what()).starts_with("modes: ") ? Verdict::refused : Verdict::bug, e.what()};
   } catch (const std::exception& e) {
     return {Verdict::bug, std::string(typeid(e).name()) + ": " + e.what()};
   }
