@@ -23,7 +23,7 @@ const Joint& joint_of(const FemModel::Parts& parts, int constraint) {
   throw std::logic_error("no such constraint");
 }
 
-// The coordinate of a driven joint must be that of its motor at the start.
+// Refuses a start in which the coordinate of a joint differs from the value that its motor prescribes.
 void require_motors_at_start(const FemModel& model, const State& state) {
   constexpr double kApart = 1e-9;
   const NodalExpansion nodal(model.parts(), state.t, state.q, state.v);

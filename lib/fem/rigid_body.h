@@ -62,7 +62,8 @@ struct RigidBody {
 // The body of these nodes. The frame is a tetrahedron of large volume. Throws ConfigError if the nodes lie in a plane.
 RigidBody rigid_body(const Mesh& mesh, const std::vector<int>& nodes, std::string name, std::string place);
 
-// Adds to each body's `inertia` that of its cells, by their density (kg/m^3), and the given ones.
+// Computes RigidBody::inertia, which must be empty: the sum of the body's cells, by the density of each cell (kg/m^3),
+// and of its given inertias.
 void add_inertia(const Mesh& mesh, const std::vector<double>& density, std::vector<RigidBody>& bodies);
 
 // Whether the body's motion is known from these nodes: whether three of them are not on a line.

@@ -2,8 +2,8 @@
 // of several ranks is owned by one of these ranks; the others have copies.
 //
 // Local numbering: owned nodes first, then copies, each in ascending order of their mesh indices. Contributions of
-// single nodes (masses, springs, contact) are computed by the owner; contributions of cells and faces are summed over
-// ranks.
+// single nodes (masses, springs, contact at nodes) are computed by the owner; contributions of cells and faces are
+// summed over ranks.
 #pragma once
 
 #include <memory>

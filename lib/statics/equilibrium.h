@@ -34,7 +34,7 @@ class EquilibriumSolver {
     double residual = 0;           // largest component of f, N
     bool above_tolerance = false;  // found, but round-off keeps the residual above its tolerance
     std::string failure_reason;    // empty if found
-    bool names_remedy = false;     // the reason is that of a LimitError
+    bool names_remedy = false;     // failure_reason is the text of a LimitError, which tells the remedy
   };
 
   // Results of a factorisation of K at an equilibrium.

@@ -131,7 +131,8 @@ TEST_P(BarrierContactOf, ForceAndTangentAreDerivatives) {
 }
 
 // Edges of both blocks are nearly parallel, so that their weights change.
-// The matrix has the entries of all nodes whose points may touch: those of middles, too.
+// With `slide`, the matrix couples the nodes of all pairs of points that may touch. A middle couples all nodes of its
+// face.
 TEST_P(BarrierContactOf, TangentsAreThoseOfAllTouchingNodesWithSlide) {
   const BuiltTestScene s(blocks(GetParam(), 0.03, 0.3, ", slide: 1.2"));
   Random random(88);

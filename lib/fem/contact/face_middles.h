@@ -22,7 +22,7 @@ class FaceMiddles {
  public:
   static bool has_middle(int nodes_of_face) { return nodes_of_face == 6 || nodes_of_face == 8; }
 
-  // No middles; the first one to be added has the number `first`, at least that of nodes.
+  // An empty list of middles. add() gives them the numbers `first`, `first` + 1, ...; nodes have smaller numbers.
   explicit FaceMiddles(int first) : first_(first) {}
 
   bool empty() const { return faces_.empty(); }
@@ -63,7 +63,8 @@ class FaceMiddles {
   std::vector<NodesOfFace> faces_;
 };
 
-// Positions x (m) and velocities v (m/s) of all points, from those of nodes. Without `moves`, v is empty.
+// The positions x (m) and velocities v (m/s) of the points of a contact. `moves`: whether the velocities are computed;
+// v is empty if not. The state and the middles must outlive this object.
 class PointState {
  public:
   PointState(const FaceMiddles& middles, const NodalState& s, bool moves)

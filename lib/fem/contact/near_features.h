@@ -1,10 +1,11 @@
 // The places at which two surfaces, or parts of one surface, are closer than a gap, and whether surfaces cross.
 //
-// A node counts its distance from each triangle within the gap once. Triangles that share an edge or a corner repeat
-// the distance from it, and these repetitions are subtracted. Beside a plane or convex surface, one distance is left,
-// that from the nearest point; in a notch, both sides are left. The forces of sums over all places are continuous.
-// Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman (2023), Convergent Incremental Potential
-// Contact, arXiv 2307.15908. Each pair of edges counts once, sharp edges with a tenth of the area of their nodes.
+// A point of a surface (face_middles.h) counts its distance from each triangle within the gap once. Triangles that
+// share an edge or a corner repeat the distance from it, and these repetitions are subtracted. Beside a plane or convex
+// surface, one distance is left, that from the nearest point; in a notch, both sides are left. The forces of sums over
+// all places are continuous. Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman (2023),
+// Convergent Incremental Potential Contact, arXiv 2307.15908. Each pair of edges counts once, sharp edges with a tenth
+// of the area of their nodes.
 #pragma once
 
 #include <array>
@@ -21,7 +22,8 @@ struct NearPlace {
   double parallel = 0;  // for edges: the sine of their angle, squared, times their squared lengths at rest, m^4,
                         // below which they count less. 0: not edges
 
-  // Whether energies depend on the position of a point: those of edges also on their angle.
+  // Whether the energy of this place depends on the position of point k. That of two edges depends on all four ends,
+  // through the angle of the edges.
   bool has_point(int k) const { return parallel > 0 || distance.has_point(k); }
 };
 
