@@ -132,8 +132,8 @@ TEST_P(ContactOf, ForcesHaveNoResultantAndNoTorque) {
   EXPECT_LE(torque.norm(), 1e-13 * f.norm());
 }
 
-// The lower face of a block is 0.1 m below the ground. Its nodal forces are the consistent forces of a uniform pressure;
-// those at the corners of quadrilaterals with eight nodes pull.
+// The lower face of a block is 0.1 m below the ground. Its nodal forces are the consistent forces of a uniform
+// pressure; those at the corners of quadrilaterals with eight nodes pull.
 TEST_P(ContactOf, ForcesOfAUniformDepthAreThoseOfAPressure) {
   const BuiltTestScene s(fmt::format(R"(
 mesh: {{type: box, size: [1, 1, 0.5], {}}}
