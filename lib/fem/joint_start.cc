@@ -46,14 +46,18 @@ struct WeakestSum {
   double eigenvalue;    // of the scaled matrix of the constraints: 1 if they are independent, 0 if they are dependent
   Vector coefficients;  // of the constraints
   Vector shares;        // of the constraints, scaled: at most 1
+  int dependent;        // number of independent sums of constraints that no motion changes
 };
+
+constexpr double kDependent = 1e-10;  // eigenvalue
 
 WeakestSum weakest_sum(const ConstraintsAt& at) {
   const Eigen::MatrixXd& H = at.matrix();
   const Vector scale = H.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
   const Vector weakest = eigen.eigenvectors().col(0);
-  return {eigen.eigenvalues()[0], scale.cwiseProduct(weakest), weakest.cwiseAbs()};
+  return {eigen.eigenvalues()[0], scale.cwiseProduct(weakest), weakest.cwiseAbs(),
+          static_cast<int>((eigen.eigenvalues().array() < kDependent).count())};
 }
 
 // The joints of bodies with a noticeable share in a sum of constraints.
@@ -71,7 +75,7 @@ std::vector<std::string> joints_of(const FemModel& model, const Vector& shares) 
 
 // Refuses constraints of which a sum does not change with any motion.
 void require_independent(const FemModel& model, const State& state, const WeakestSum& sum) {
-  constexpr double kDependent = 1e-10, kContradicts = 1e-6;
+  constexpr double kContradicts = 1e-6;
   if (sum.eigenvalue >= kDependent) return;
   const Constraints& constraints = *model.constraints();
   Vector shares = sum.shares;
@@ -82,7 +86,9 @@ void require_independent(const FemModel& model, const State& state, const Weakes
   const Joint& joint = joint_of(model.parts(), static_cast<int>(worst));
   std::vector<std::string> others = joints_of(model, shares);
   std::erase(others, joint.name);
-  const std::string by = others.empty() ? "clamps and its other constraints" : "the joints " + join(others);
+  const std::string by = others.empty()       ? "clamps and its other constraints"
+                         : others.size() == 1 ? "the joint " + others[0]
+                                              : "the joints " + join(others);
   const Vector still = Vector::Zero(state.q.size());
   Vector rates(constraints.size()), curvatures(constraints.size());  // by motors and supports
   constraints.rates(state.t, state.q, still, rates);
@@ -96,10 +102,11 @@ void require_independent(const FemModel& model, const State& state, const Weakes
                                                constraints.name(static_cast<int>(worst)), by));
   throw ConfigError(
       joint.place,
-      fmt::format("{} is already held by {} in the rest shape: remove one of them, replace a hinge by a ball or "
-                  "cylindrical joint, give each joint of a deformable body nodes of its own, or draw links that are "
-                  "in line there in another position",
-                  constraints.name(static_cast<int>(worst)), by));
+      fmt::format("{} is already held by {} in the rest shape, {} too many: remove a joint, replace hinges (hinge, "
+                  "hinge, ball and cylindrical hold a plane four-bar without repetition), give each joint of a "
+                  "deformable body nodes of its own, or draw links that are in line there in another position",
+                  constraints.name(static_cast<int>(worst)), by,
+                  sum.dependent == 1 ? "1 constraint" : fmt::format("{} constraints", sum.dependent)));
 }
 
 }  // namespace

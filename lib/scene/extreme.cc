@@ -148,8 +148,10 @@ void require_field_at(const std::string& field, int node, const FemModel& model,
   const ElementMesh mesh(model.parts().mesh);
   const std::vector<const ElasticTerm*> terms = terms_at(node, named, mesh, model);
   if (!named.empty() && terms.empty())
-    origin.fail(fmt::format(
-        "'{}': the probe's node is not in region {}; move the probe, or use the field without a region", field, named));
+    origin.fail(
+        fmt::format("'{}': the probe's node is not in region {}; move the probe, give it a `region`, or use the field "
+                    "without a region",
+                    field, named));
   if (!needs_strength(field)) return;
   for (const ElasticTerm* term : terms)
     if (term->definition().strength) return;

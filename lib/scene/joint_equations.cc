@@ -37,10 +37,8 @@ class Ends {
   }
 
   bool are_rigid() const { return first_.body && (!joint_.second || second_.body); }
-  // Whether both ends hold the point.
-  bool can_hold(const Vec3& point) const {
-    return !found(first_, point).weights.empty() && (!joint_.second || !found(second_, point).weights.empty());
-  }
+  bool first_can_hold(const Vec3& point) const { return !found(first_, point).weights.empty(); }
+  bool second_can_hold(const Vec3& point) const { return !joint_.second || !found(second_, point).weights.empty(); }
 
   // Of the nodes of the deformable end that is more nearly plane, or of the first body.
   Spread spread() const {
@@ -98,16 +96,19 @@ struct Directions {
   Vec3 line, side, other;
 };
 
-Directions directions(const JointInput& joint) {
+// The first body holds the side of the joint, if it can hold one of both directions.
+Directions directions(const JointInput& joint, const Ends& ends) {
   const Vec3 line = *joint.to - *joint.from, side = line.norm() * line.unitOrthogonal();
-  return {line, side, line.normalized().cross(side)};
+  const Vec3 other = line.normalized().cross(side);
+  if (!ends.first_can_hold(*joint.from + side) && ends.first_can_hold(*joint.from + other)) return {line, other, -side};
+  return {line, side, other};
 }
 
 // Two points coincide. Two rigid bodies keep the distance of both points by themselves: then the second point is held
 // across the line only.
 void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
   const Vec3 from = *joint.from, to = *joint.to;
-  const auto [line, side, other] = directions(joint);
+  const auto [line, side, other] = directions(joint, ends);
   const auto coincide = [&](const Vec3& x) { return JointEquation::coincide(ends.first(x), ends.second(x)); };
   const auto across = [&](const Vec3& offset) {
     return JointEquation::across(ends.first(to), ends.second(from), ends.second(from + offset));
@@ -115,14 +116,16 @@ void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
   if (ends.are_rigid()) out.equations = {coincide(from), across(side), across(other)};
   else out.equations = {coincide(from), coincide(to)};
   const bool is_used = joint.motor || joint.has_forces();
-  if (!is_used && !(ends.can_hold(from + side) && ends.can_hold(from + other))) return;
+  const bool has_angle =
+      ends.first_can_hold(from + side) && ends.second_can_hold(from + side) && ends.second_can_hold(from + other);
+  if (!is_used && !has_angle) return;
   out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
                                             ends.second(from + side), ends.second(from + other));
 }
 
 void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
   const Vec3 from = *joint.from;
-  const auto [line, side, other] = directions(joint);
+  const auto [line, side, other] = directions(joint, ends);
   // `from + along` and `from + offset` are points of the first and of the second body.
   const auto across = [&](const Vec3& along, const Vec3& offset) {
     return JointEquation::across(ends.first(from + along), ends.second(from), ends.second(from + offset));
@@ -161,7 +164,7 @@ JointEquation driven(const JointInput& joint, const Ends& ends, JointMotor motor
   const Vec3 from = *joint.from;
   if (joint.slides())
     return JointEquation::slide(ends.first(from), ends.second(from), ends.second(*joint.to), std::move(motor));
-  const auto [line, side, other] = directions(joint);
+  const auto [line, side, other] = directions(joint, ends);
   return JointEquation::turn(ends.first(from + side), ends.second(from), ends.second(from + other),
                              ends.second(from + side), std::move(motor));
 }

@@ -7,6 +7,7 @@
 
 #include "lib/fem/fem_model.h"
 #include "lib/fem/nodal_fields.h"
+#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 
@@ -81,10 +82,22 @@ const Spec<Probe>& Probe::spec() {
   static const auto s =
       Spec<Probe>()
           .key("at", &Probe::at, "The node nearest to this point of the rest shape.", {.required = true, .unit = "m"})
+          .key("region", &Probe::region, "Its nodes only, where bodies have nodes at one place; default: all nodes.")
           .key("fields", &Probe::fields,
                "Node fields to record; for stress and strain also REGION.FIELD, which gives the value in one region at "
                "a node of several.");
   return s;
+}
+
+int Probe::node(const Mesh& mesh) const {
+  if (!region) return nearest_node(mesh, at);
+  Selection nodes;
+  nodes.region = region;
+  nodes.origin = origin;
+  const std::vector<int> own = selected_nodes(nodes, mesh);
+  return *std::min_element(own.begin(), own.end(), [&](int a, int b) {
+    return (mesh.node(a) - at).squaredNorm() < (mesh.node(b) - at).squaredNorm();
+  });
 }
 
 const Spec<History>& History::spec() {

@@ -41,8 +41,11 @@ struct Value<FrameFields> {
 // A point whose fields go to probes.csv.
 struct Probe {
   Vec3 at = Vec3::Zero();  // m, in the rest shape
+  std::optional<std::string> region;
   NodeFields fields{"displacement"};
   SourceLocation origin;
+  // The nearest node, of the region if there is one. Throws ConfigError for an unknown region.
+  int node(const Mesh& mesh) const;
   static const Spec<Probe>& spec();
 };
 

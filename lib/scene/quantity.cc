@@ -56,7 +56,7 @@ Quantity make_quantity(const std::string& name, const Source& source, const std:
 // All quantities of a scene by name, without components.
 std::vector<std::pair<std::string, Source>> sources(const Scene& scene, const FemModel& model) {
   std::vector<std::pair<std::string, int>> nodes;
-  for (const auto& [probe, p] : scene.output.probes) nodes.emplace_back(probe, nearest_node(model.parts().mesh, p.at));
+  for (const auto& [probe, p] : scene.output.probes) nodes.emplace_back(probe, p.node(model.parts().mesh));
   std::vector<std::pair<std::string, Source>> all;
   for (const auto& info : model.outputs()) {
     if (info.location == Location::global) all.push_back({info.name, {info}});

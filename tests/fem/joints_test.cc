@@ -294,6 +294,23 @@ TEST(Joints, StartWithVelocitiesThatFit) {
   EXPECT_LE((G.transpose() * a + c).norm(), 1e-12);
 }
 
+// A hinge has an angle if its first body holds a point beside the line, in any plane.
+TEST(Joints, OfNodesInAPlaneHaveAnAngle) {
+  const BuiltTestScene s(
+      two_bars("{type: hinge, name: a, from: [1, 0, 0.1], to: [1, 0.2, 0.1], first: {surface: "
+               "upper.x1}}, {type: hinge, name: b, from: [0.2, 0, 0.2], to: [0.2, 0.2, 0.2], first: "
+               "{surface: upper.z1}}"));
+  for (const Joint& joint : s.model().parts().joints) {
+    ASSERT_TRUE(joint.coordinate) << joint.name;
+    // The bar turns about the y axis by 0.1 rad.
+    const Vec3 from = joint.name == "a" ? Vec3(1, 0, 0.1) : Vec3(0.2, 0, 0.2);
+    const Mat3 R = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+    const Vector q = s.dofs([&](const Vec3& x) { return Vec3(R * (x - from) + from - x); });
+    const NodalExpansion nodal(s.model().parts(), 0, q, s.zero());
+    EXPECT_NEAR(joint.coordinate->value(nodal.u), 0.1, 1e-12) << joint.name;
+  }
+}
+
 TEST(Joints, AreRefusedWithTheReason) {
   const auto message = [](const std::string& joints, const std::string& more = "") {
     try {

@@ -93,6 +93,39 @@ TEST_F(Resume, TablesHaveTheColumnsOfJoints) {
     EXPECT_THAT(header.substr(0, header.find('\n')), HasSubstr(column));
 }
 
+// Both blocks have a node at the place of the probes; the upper one falls. A hinge that holds the nodes of a plane has
+// an angle without a spring.
+TEST_F(Resume, ProbesAreOfTheirRegion) {
+  write("two.yaml", R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}}
+    upper: {mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}, translation: [0, 0, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+regions: {lower: {material: m}, upper: {material: m}}
+joints: [{type: hinge, name: pin, from: [0, 0, 2], to: [0, 1, 2], first: {surface: upper.z1}}]
+gravity: [0, 0, -10]
+clamps: [{surface: lower.z0}]
+time: {end: 0.1}
+integrator: {type: ida_bdf, rtol: 1e-4}
+output:
+  reactions: true
+  mesh_error: false
+  probes:
+    below: {at: [1, 1, 1], region: lower}
+    above: {at: [1, 1, 1], region: upper}
+)");
+  const auto result = orthodyn("run two.yaml --quiet --out two");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto header = read_text(folder_ / "two/probes.csv");
+  EXPECT_THAT(header, HasSubstr("coordinate.pin"));
+  const auto last = read_rows(folder_ / "two/probes.csv").back();  // t, below.x to z, above.x to z, ...
+  EXPECT_LT(last.at(6), -0.01);
+  EXPECT_GT(last.at(3), -0.01);
+  EXPECT_EQ(orthodyn("run two.yaml --quiet --out other --set output.probes.below.region=none").exit_code, 2);
+}
+
 // The warnings before a run of two blocks, the upper one at the height z.
 std::string warnings_of(const std::string& elements, const std::string& type, double z) {
   std::string words;

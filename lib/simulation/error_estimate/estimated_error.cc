@@ -98,8 +98,7 @@ NodesByField probed_fields(const Scene& scene, const FemModel& model) {
   NodesByField out;
   for (const auto& [name, probe] : scene.output.probes)
     for (const std::string& field : probe.fields)
-      if (field != "displacement" && field != "velocity")
-        out[field].push_back(nearest_node(model.parts().mesh, probe.at));
+      if (field != "displacement" && field != "velocity") out[field].push_back(probe.node(model.parts().mesh));
   return out;
 }
 

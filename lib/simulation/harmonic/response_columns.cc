@@ -66,7 +66,7 @@ std::vector<ResponseColumn> response_columns(const Scene& scene, const FemModel&
     for (const auto& field : entry.fields) {
       const OutputInfo info = output_of(model, field, entry.origin);
       const int motion = motion_index(field);
-      if (motion < 0) require_field_at(info.name, nearest_node(model.parts().mesh, entry.at), model, entry.origin);
+      if (motion < 0) require_field_at(info.name, entry.node(model.parts().mesh), model, entry.origin);
       const std::string unit = motion < 0 ? info.unit : kMotionUnits[static_cast<std::size_t>(motion)];
       for (int c = 0; c < info.components; ++c)
         columns.push_back({probe,
@@ -102,7 +102,7 @@ Vector values_at(const Scene& scene, const FemModel& model, const std::vector<Pl
   for (const auto& [probe, entry] : scene.output.probes)
     for (const auto& field : entry.fields) {
       const OutputInfo info = output_of(model, field, entry.origin);
-      const auto values = observed.evaluate_at(info.name, nearest_node(model.parts().mesh, entry.at), info.components);
+      const auto values = observed.evaluate_at(info.name, entry.node(model.parts().mesh), info.components);
       out.insert(out.end(), values.begin(), values.end());
     }
   for (const PlacedGauge& gauge : gauges)

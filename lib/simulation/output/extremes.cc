@@ -72,8 +72,8 @@ void ExtremeRecorder::add_probe(const std::string& name, const std::string& prob
   const Quantity quantity = find_quantity(name.substr(0, dot), scene_, model_, origin);
   if (quantity.components() > 1) origin.fail("extremes: " + quantity.ask_for_component());
   const auto is_probe = [&](const auto& one) { return one.first == probe; };
-  const int node = nearest_node(
-      model_.parts().mesh, std::find_if(scene_.output.probes.begin(), scene_.output.probes.end(), is_probe)->second.at);
+  const int node = std::find_if(scene_.output.probes.begin(), scene_.output.probes.end(), is_probe)
+                       ->second.node(model_.parts().mesh);
   find_.push_back([values = quantity.values, node](const ObservedState& observed) {
     return Extreme{values(observed)[0], node};
   });

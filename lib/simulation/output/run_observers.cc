@@ -26,7 +26,7 @@ std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
 std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model) {
   std::vector<ProbeColumn> columns;
   for (const auto& [name, probe] : scene.output.probes)
-    for (const auto& field : probe.fields) columns.push_back({name, nearest_node(model.parts().mesh, probe.at), field});
+    for (const auto& field : probe.fields) columns.push_back({name, probe.node(model.parts().mesh), field});
   for (const auto& [name, gauge] : scene.output.gauges)
     columns.push_back({name, 0, "", PlacedGauge(gauge, model.parts().mesh)});
   if (scene.output.reactions)

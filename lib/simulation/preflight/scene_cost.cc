@@ -99,7 +99,8 @@ class SavingsFinder {
     const auto names = part_names(parts());
     const double all = response_.displacement.lpNorm<Eigen::Infinity>();
     for (std::size_t k = 0; k < loads.size(); ++k) {
-      if (loads[k].isZero(0) || alone[k].size() == 0) continue;  // springs, contact: no force at rest
+      if (loads[k].isZero(0) || alone[k].size() == 0) continue;  // springs: no force at rest
+      if (parts().loads[k]->contact()) continue;                 // its force at rest tells nothing
       const double share = alone[k].lpNorm<Eigen::Infinity>() / all;
       if (!(share < threshold())) continue;
       const std::string& name = names[parts().elastic.size() + k];

@@ -55,8 +55,7 @@ void check_outputs(const Scene& scene, const FemModel& model) {
   for (const auto& field : fields) require_strengths(field, "", model, fields.origin);
   for (const auto& [name, probe] : scene.output.probes) {
     check_fields(model, probe.fields, {Location::node}, probe.origin);
-    for (const auto& field : probe.fields)
-      require_field_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
+    for (const auto& field : probe.fields) require_field_at(field, probe.node(model.parts().mesh), model, probe.origin);
   }
   ExtremeRecorder(scene, model);  // throws for an unknown quantity
 }

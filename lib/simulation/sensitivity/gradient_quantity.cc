@@ -50,7 +50,7 @@ GradientQuantity::GradientQuantity(const std::string& name, const Scene& scene, 
     if ((field != "displacement" && field != "velocity") || component.size() != 1 ||
         axes.find(component) == std::string::npos)
       refuse(name, fmt::format("'{}' is no such quantity", rest));
-    const int node = nearest_node(model.parts().mesh, probe.at);
+    const int node = probe.node(model.parts().mesh);
     unknown_ = model.parts().dofs->node(node)[axes.find(component)];
     if (model.parts().dofs->ties().is_tied(node))
       refuse(name,

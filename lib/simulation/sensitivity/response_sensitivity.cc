@@ -62,7 +62,7 @@ Vector ResponseSensitivity::output(const ResponseColumn& column) const {
     if (probe != column.probe) continue;
     const auto component = static_cast<std::size_t>(column.name.back() - 'x');
     const DofMap& dofs = *model.parts().dofs;
-    dofs.ties().for_each_leader(nearest_node(model.parts().mesh, entry.at), [&](int leader, double weight) {
+    dofs.ties().for_each_leader(entry.node(model.parts().mesh), [&](int leader, double weight) {
       if (const int dof = dofs.node(leader).at(component); dof >= 0) q[dof] += weight;
     });
   }

@@ -87,7 +87,7 @@ class StaticObservers {
 std::vector<int> probed_nodes(const Setup& setup) {
   std::vector<int> nodes;
   for (const auto& [name, probe] : setup.scene.output.probes)
-    nodes.push_back(nearest_node(setup.built.model->parts().mesh, probe.at));
+    nodes.push_back(probe.node(setup.built.model->parts().mesh));
   return nodes;
 }
 

@@ -46,7 +46,7 @@ std::vector<ProbePoint> probe_points(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   std::vector<ProbePoint> points;
   for (const auto& [name, probe] : setup.scene.output.probes) {
-    const int node = nearest_node(model.parts().mesh, probe.at);
+    const int node = probe.node(model.parts().mesh);
     if (model.parts().dofs->ties().is_tied(node))
       probe.origin.fail("the nearest node is tied to another surface, and has no unknowns to compare; move the probe");
     points.push_back({name, global_dofs(model, node)});

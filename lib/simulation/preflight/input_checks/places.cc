@@ -120,20 +120,29 @@ void add_repeated_clamps(const CheckContext& context, Warnings& out) {
       }
 }
 
-// Warns of a given centre of mass that is farther from the body than the body is long.
-void check_centers(const CheckContext& context, Warnings& out) {
+// Warns of a given centre of mass that is farther from the body than the body is long, and of given moments of inertia
+// that no body of its size has.
+void check_inertias(const CheckContext& context, Warnings& out) {
   const FemModel::Parts& parts = context.built.model->parts();
   for (const RigidBody& body : parts.rigid_bodies) {
     Mesh own;
     for (const int node : body.nodes()) own.nodes.push_back(parts.mesh.node(node));
     const Box box = bounding_box(own);
-    for (const RigidInertia& given : body.given)
+    for (const RigidInertia& given : body.given) {
+      constexpr double kFactor = 10;
+      const double radius = std::sqrt(given.principal_moments()[2] / given.mass);
+      if (radius > kFactor * box.diagonal() || kFactor * kFactor * radius < box.diagonal())
+        warn(out, body.place,
+             "rigid: the moments of inertia of '{}' are those of a mass at {:.2g} m from its centre, and the body is "
+             "{:.2g} m long: are `inertia` in kg m^2 and `mass` in kg?",
+             body.name, radius, box.diagonal());
       if (const double far = distance(given.center, box); far > box.diagonal())
         warn(
             out, body.place,
             "rigid: the centre of mass, {}, is {:.3g} m outside of the body '{}', which extends from {} to {} m: is it "
             "in m, and a place in the scene at rest rather than in the body's own coordinates?",
             Value<Vec3>::yaml(given.center), far, body.name, Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max));
+    }
   }
 }
 
@@ -146,7 +155,7 @@ void check_place(const CheckContext& context, Warnings& out) {
   check_direction(context, out);
   check_grain(context, out);
   add_repeated_clamps(context, out);
-  check_centers(context, out);
+  check_inertias(context, out);
   const Mesh& mesh = context.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
     const double outside = distance(point, context.box);
