@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "lib/analysis/singular_vectors.h"
-#include "lib/config/values.h"
 #include "lib/core/spelling.h"
 #include "lib/mesh/quadratic.h"
 
@@ -172,7 +172,17 @@ std::string sentence(const Eigen::MatrixXd& free) {
 struct FreePart {
   Vec3 center;
   Eigen::MatrixXd motions;
+  std::vector<std::string> regions;
 };
+
+std::vector<std::string> regions_of(int part, const std::vector<int>& part_of, const Mesh& mesh) {
+  std::set<int> found;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (part_of[static_cast<std::size_t>(mesh.cells[c][0])] == part) found.insert(mesh.region_of[c]);
+  std::vector<std::string> names;
+  for (const int region : found) names.push_back(mesh.region_names[static_cast<std::size_t>(region)]);
+  return names;
+}
 
 std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
   const auto part_of = parts_of(model.parts().mesh, model.parts().dofs->ties());
@@ -189,7 +199,8 @@ std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
       model.linearize(t, zero, zero, TangentKind::gauss_newton, at);
     }
     if (free.cols() > 0) free = without_stiffness(free, rigid.on_dofs(free), model, at.stiffness);
-    all.push_back({rigid.center(), std::move(free)});
+    auto regions = free.cols() > 0 ? regions_of(part, part_of, model.parts().mesh) : std::vector<std::string>();
+    all.push_back({rigid.center(), std::move(free), std::move(regions)});
   }
   return all;
 }
@@ -200,8 +211,13 @@ std::string describe_rigid_freedom(const FemModel& model, double t) {
   const auto parts = freedom_of_parts(model, t);
   for (const auto& part : parts) {
     if (part.motions.cols() == 0) continue;
-    return (parts.size() == 1 ? "the body " : "the part of the body about " + Value<Vec3>::yaml(part.center) + " m ") +
-           sentence(part.motions);
+    const Vec3& x = part.center;
+    const std::string name = parts.size() == 1
+                                 ? "the body "
+                                 : fmt::format("the part of the body about [{:.4g}, {:.4g}, {:.4g}] m (region {}) ",
+                                               x[0], x[1], x[2], join(part.regions));
+    const auto& contacts = model.parts().contacts;
+    return name + sentence(part.motions) + (contacts.empty() ? "" : " (contact does not hold it)");
   }
   return "";
 }

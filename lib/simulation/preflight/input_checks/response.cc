@@ -109,6 +109,9 @@ Warnings check_response(const Config& config, const Scene& scene, const BuiltSce
   if (std::any_of(scene.materials.begin(), scene.materials.end(), has_fibres)) return {};
   const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
+  // Bodies that soft springs hold come to rest on each other, or on the ground.
+  const bool may_touch = !built.model->parts().contacts.empty();
+  if (share > kTooFar && may_touch) return {};
   if (share > kImpossible) throw ConfigError(error.place, fmt::format("{}; {}", finding, error.words));
   if (share > kTooFar) return {fmt::format("{}: {}; {}", error.place, finding, error.words)};
   if (share < kUnseen)
