@@ -6,6 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/golden_ratio_sample.h"
+#include "lib/fem/contact/contact.h"
 
 namespace orthodyn {
 

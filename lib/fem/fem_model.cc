@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/core/parallel.h"
+#include "lib/fem/contact/contact.h"
 
 namespace orthodyn {
 
@@ -197,7 +198,7 @@ Vector FemModel::whole_of(const Vector& part) const {
 }
 
 State FemModel::whole(const State& state) const {
-  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z, state.lambda};
+  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z, state.lambda, state.angles};
 }
 
 Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Vector(all(parts_.unknowns)) : all; }
@@ -302,6 +303,21 @@ double FemModel::longest_step(const State& state) const {
     longest = std::min(longest, term->contact()->longest_step(nodal->state()));
   }
   return longest;
+}
+
+Angles FemModel::angles(const State& state) const {
+  const auto turns = [](const Joint& joint) { return joint.coordinate && joint.coordinate->is_angle(); };
+  const auto count = std::count_if(parts_.joints.begin(), parts_.joints.end(), turns);
+  if (count == 0) return {};
+  const NodalExpansion nodal(parts_, state.t, state.q, state.v);
+  Angles out{Vector(count), Vector(count)};
+  Eigen::Index i = 0;
+  for (const Joint& joint : parts_.joints) {
+    if (!turns(joint)) continue;
+    out.values[i] = joint.coordinate->value(nodal.u);
+    out.rates[i++] = joint.coordinate->rate(nodal.u, nodal.u_rate);
+  }
+  return out;
 }
 
 Geometry FemModel::geometry() const { return {parts_.mesh.nodes, parts_.mesh.cells}; }

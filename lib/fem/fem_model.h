@@ -39,6 +39,12 @@ struct NamedTie {
   std::vector<TiedNode> nodes;
 };
 
+// A contact of the model's loads, with the name of its outputs.
+struct NamedContact {
+  std::string name;
+  const Contact* contact;
+};
+
 class FemModel : public Model {
  public:
   // With several ranks, `mesh` is the whole mesh; everything else belongs to this rank's subdomain and uses its node
@@ -65,6 +71,7 @@ class FemModel : public Model {
     std::vector<Joint> joints = {};                     // distances within rigid bodies included
     std::vector<RigidBody> rigid_bodies = {};
     std::vector<NamedTie> ties = {};
+    std::vector<NamedContact> contacts = {};    // among `loads`
     std::unique_ptr<TiedMass> tied_mass = {};   // null without ties or with a lumped mass
     std::unique_ptr<SupportMass> support_mass;  // null without motions and supports
     std::unique_ptr<StressRecovery> recovery;   // set by FemModel
@@ -97,6 +104,7 @@ class FemModel : public Model {
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override;
   double longest_step(const State& state) const override;
+  Angles angles(const State& state) const override;  // of the joints with an angle, in their order
 
   std::vector<OutputInfo> outputs() const override;
   std::unique_ptr<StateView> view(const State& state) const override;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/fem_state_view.h"
 #include "lib/fem/nodal_fields.h"
 #include "lib/fem/terms/added_term.h"
@@ -339,6 +340,20 @@ std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties) {
   return out;
 }
 
+std::vector<FemOutput> contact_outputs(const std::vector<NamedContact>& contacts) {
+  std::vector<FemOutput> out;
+  for (const auto& [name, contact] : contacts) {
+    if (contact->has_resultant())
+      out.push_back({{"contact." + name, Location::global, 3, "N",
+                      "Force of the contact on its first surface, or of the plane on the body.", axis_names()},
+                     [contact = contact](const View& view) { return flat(contact->resultant(view.state())); }});
+    out.push_back({{"contact_pressure." + name, Location::global, 1, "Pa", "Largest pressure of the contact."},
+                   [contact = contact](const View& view) { return Values{contact->largest_pressure(view.state())}; },
+                   Reduction::maximum});
+  }
+  return out;
+}
+
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
   std::vector<FemOutput> out;
   for (const Joint& joint : joints)
@@ -348,13 +363,20 @@ std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
            [&joint](const View& view) {
              return flat(joint_force(view.parts(), joint, view.nodal(), view.multipliers()));
            }});
+  Eigen::Index num_angles = 0;
   for (const Joint& joint : joints) {
-    if (joint.coordinate)
-      out.push_back(
-          {{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
-            joint.coordinate->is_angle() ? "Angle of the first body of the joint about the line, from -pi to pi."
-                                         : "Distance of the first body of the joint along the line."},
-           [&joint](const View& view) { return Values{joint.coordinate->value(view.nodal().u)}; }});
+    if (joint.coordinate && joint.coordinate->is_angle())
+      out.push_back({{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
+                      "Angle of the first body of the joint about the line, with all turns."},
+                     [&joint, i = num_angles++](const View& view) {
+                       const double angle = joint.coordinate->value(view.nodal().u);
+                       if (view.angles().size() == 0) return Values{angle};
+                       return Values{nearest_turns(Vector::Constant(1, angle), view.angles().segment(i, 1))[0]};
+                     }});
+    else if (joint.coordinate)
+      out.push_back({{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
+                      "Distance of the first body of the joint along the line."},
+                     [&joint](const View& view) { return Values{joint.coordinate->value(view.nodal().u)}; }});
     if (joint.motor())
       out.push_back(
           {{"motor." + joint.name, Location::global, 1, joint.coordinate->is_angle() ? "N m" : "N",
@@ -384,6 +406,7 @@ std::vector<OutputInfo> FemModel::outputs() const {
   for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
   for (const auto& output : joint_outputs(parts_.joints)) infos.push_back(output.info);
   for (const auto& output : tie_outputs(parts_.ties)) infos.push_back(output.info);
+  for (const auto& output : contact_outputs(parts_.contacts)) infos.push_back(output.info);
   for (const FieldRegion& region : field_regions(parts_.elastic))
     for (OutputInfo info : region_fields()) {
       info.name = region.name + "." + info.name;

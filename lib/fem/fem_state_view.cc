@@ -38,6 +38,8 @@ FemOutput find_output(const FemModel::Parts& parts, const std::string& name) {
     if (output.info.name == name) return output;
   for (const auto& output : tie_outputs(parts.ties))
     if (output.info.name == name) return output;
+  for (const auto& output : contact_outputs(parts.contacts))
+    if (output.info.name == name) return output;
   for (const FieldRegion& region : field_regions(parts.elastic)) {
     const std::string prefix = region.name + ".";
     if (!name.starts_with(prefix)) continue;

@@ -16,7 +16,11 @@ class FemStateView : public StateView {
  public:
   // `parts` must outlive this object.
   FemStateView(const FemModel::Parts& parts, const State& state)
-      : parts_(parts), z_(state.z), lambda_(state.lambda), nodal_(parts, state.t, state.q, state.v, state.load_factor) {
+      : parts_(parts),
+        z_(state.z),
+        lambda_(state.lambda),
+        angles_(state.angles),
+        nodal_(parts, state.t, state.q, state.v, state.load_factor) {
     if (z_.size() > 0) nodal_.internal = &internal_;
   }
   FemStateView(const FemStateView&) = delete;  // internal_ refers to z_
@@ -29,6 +33,7 @@ class FemStateView : public StateView {
   const NodalExpansion& nodal() const { return nodal_; }
   NodalState state() const { return nodal_.state(); }
   const Vector& multipliers() const { return lambda_; }  // empty without joints
+  const Vector& angles() const { return angles_; }       // State::angles
 
   // Energy of all terms of one kind, J.
   double energy(EnergyKind kind) const;
@@ -60,6 +65,7 @@ class FemStateView : public StateView {
   const FemModel::Parts& parts_;
   Vector z_;       // internal variables
   Vector lambda_;  // multipliers of the joints
+  Vector angles_;  // of hinges
   InternalState internal_{InternalState::Kind::given, z_.data(), 0};
   NodalExpansion nodal_;
   mutable std::optional<double> kinetic_energy_;
@@ -89,6 +95,9 @@ std::vector<FemOutput> reaction_outputs(const std::vector<Support>& supports);
 
 // The force of each tie; `ties` must outlive the result.
 std::vector<FemOutput> tie_outputs(const std::vector<NamedTie>& ties);
+
+// Force and pressure of each contact; `contacts` must outlive the result.
+std::vector<FemOutput> contact_outputs(const std::vector<NamedContact>& contacts);
 
 // The force of each joint, and the largest distance of points that should coincide; `joints` must outlive the result.
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints);

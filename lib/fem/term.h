@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "lib/core/types.h"
-#include "lib/fem/contact/contact.h"
 #include "lib/fem/dof_map.h"
 #include "lib/fem/subdomain.h"
 #include "lib/ode/internal_variables.h"
 #include "lib/ode/step_limits.h"
 
 namespace orthodyn {
+
+class Contact;
 
 // Positions, displacements and velocities of all nodes, clamped ones included. Compute quantities that vanish at rest
 // from u, not from x - X, which loses the digits of small displacements.

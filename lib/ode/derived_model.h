@@ -25,6 +25,7 @@ class DerivedModel : public Model {
   void solve_mass(VectorRef x) const override { original_.solve_mass(x); }
   Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return original_.rigid_motions(q); }
   double longest_step(const State& state) const override { return original_.longest_step(state); }
+  Angles angles(const State& state) const override { return original_.angles(state); }
 
  protected:
   const Model& original() const { return original_; }

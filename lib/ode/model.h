@@ -24,6 +24,7 @@
 
 #include "lib/core/pattern.h"
 #include "lib/core/types.h"
+#include "lib/ode/angles.h"
 #include "lib/ode/output.h"
 #include "lib/ode/step_limits.h"
 #include "lib/ode/vector_space.h"
@@ -164,6 +165,9 @@ class Model : public OutputSource {
   // The longest step (s) from a state in which no body can pass through another one unseen, if no velocity grows to
   // more than four times the largest one; infinite without contact of bodies.
   virtual double longest_step(const State&) const { return std::numeric_limits<double>::infinity(); }
+
+  // Angles of which State::angles count the turns; empty without any.
+  virtual Angles angles(const State&) const { return {}; }
 
  private:
   // A number that is unique to this model; a copy of the model gets another number.

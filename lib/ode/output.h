@@ -19,6 +19,7 @@ struct State {
   double load_factor = 1;  // factor on the loads (Model::load_parts())
   Vector z = {};           // internal variables (internal_variables.h); empty: at equilibrium
   Vector lambda = {};      // multipliers of the constraints (constraints.h), N; empty if unknown
+  Vector angles = {};      // rad, near Model::angles() and with all turns; empty: turns are not counted
 };
 
 enum class Location { node, cell, global };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/joint_start.h"
 #include "lib/fem/terms/joint_load.h"
 #include "lib/material_axes/axes_source.h"
@@ -20,6 +21,16 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Names the outputs of a contact.
+void add_contact(const Contact& contact, FemModel::Parts& parts) {
+  const auto& [given, place] = contact.label();
+  const std::string name = given.empty() ? fmt::format("contact_{}", parts.contacts.size() + 1) : given;
+  require_name_for_csv(name, {place});
+  for (const NamedContact& other : parts.contacts)
+    if (other.name == name) throw ConfigError(place, fmt::format("name: '{}' is used twice among contacts", name));
+  parts.contacts.push_back({name, &contact});
+}
+
 void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Parts& parts) {
   const Discretization body{parts.mesh, rest, *parts.pattern, parts.mass->row_sums(), parts.mass->total()};
   for (const TermChoice* term : scene.force_terms()) {
@@ -30,6 +41,7 @@ void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Part
       if (!part) throw ConfigError("terms", fmt::format("'{}' does not run on several ranks", made->name()));
       made = std::move(part);
     }
+    if (const Contact* contact = made->contact()) add_contact(*contact, parts);
     parts.loads.push_back(std::move(made));
   }
 }

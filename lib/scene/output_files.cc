@@ -134,7 +134,7 @@ const Spec<Output>& Output::spec() {
           .key(
               "reactions", &Output::reactions,
               "Record in probes.csv the force and torque that every clamp and motion exerts on the body, the forces of "
-              "joints, motors and ties, and the coordinates of joints.")
+              "joints, motors, ties and contacts, and the coordinates of joints.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("accumulated_error", &Output::accumulated_error,
                "After runs of about 500 steps or more, estimate the accumulated error of the steps by integrating a "

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -245,6 +246,9 @@ time: {end: 1}
   for (const auto& [node, of_node] : upper.areas()) own += f(2, node);
   const double slope = 1 / (0.6 * 0.6) - 3 + 2 * 0.6;       // -B'(0.6) of B(s) = 1/s - 3 + 3 s - s^2
   EXPECT_NEAR(own, 0.04 * 2000 * 0.05 * slope / 2, 1e-12);  // no edge of the upper block meets another
+  const State rest{0, s.zero(), s.zero()};
+  EXPECT_NEAR(s.model().evaluate("contact.contact_1", rest).at(2), -own, 1e-12);
+  EXPECT_NEAR(s.model().evaluate("contact_pressure.contact_1", rest).at(0), 2000 * 0.05 * slope, 1e-9);
 }
 
 TEST(BarrierContact, RefusesStatesInWhichSurfacesCross) {
@@ -356,6 +360,13 @@ TEST(BarrierContact, IsRefusedWithTheReason) {
   EXPECT_THAT(message(blocks("cells: [2, 2, 1]", 1e-14, 0.1)), HasSubstr("next to touching"));
   EXPECT_THAT(message(blocks("cells: [2, 2, 1]", -0.05, 0.1)), HasSubstr("cross"));
   EXPECT_EQ(message(ring_of("")), "accepted");
+  const BuiltTestScene ring(ring_of(", name: gap"));
+  const auto has = [&](const char* name) {
+    const auto all = ring.model().outputs();
+    return std::any_of(all.begin(), all.end(), [&](const OutputInfo& info) { return info.name == name; });
+  };
+  EXPECT_TRUE(has("contact_pressure.gap"));
+  EXPECT_FALSE(has("contact.gap"));  // the sum of its forces is zero
   EXPECT_THAT(message(ring_of(", gap: 0.2")), HasSubstr("choose a smaller gap"));
 }
 

@@ -138,7 +138,7 @@ TEST_P(ContactOf, ForcesOfAUniformDepthAreThoseOfAPressure) {
   const BuiltTestScene s(fmt::format(R"(
 mesh: {{type: box, size: [1, 1, 0.5], {}}}
 materials: {{m: {{type: orthotropic_stable, density: 1, young: [10, 1, 2], nu: 0.3}}}}
-terms: [{{type: ground_contact, surface: z0, point: [0, 0, 0.1], stiffness: 20, onset: 0.02}}]
+terms: [{{type: ground_contact, name: floor, surface: z0, point: [0, 0, 0.1], stiffness: 20, onset: 0.02}}]
 time: {{end: 1}}
 )",
                                      GetParam().lower));
@@ -148,6 +148,9 @@ time: {{end: 1}}
   for (const auto& [node, force] : surface_forces(s.mesh(), s.mesh().surfaces.at("z0"), pressure))
     expected.col(node) += force;
   EXPECT_LE((f - expected).norm(), 1e-13 * expected.norm());
+  const State rest{0, s.zero(), s.zero()};
+  EXPECT_NEAR(s.model().evaluate("contact.floor", rest).at(2), pressure[2], 1e-12);  // of an area of 1 m^2
+  EXPECT_NEAR(s.model().evaluate("contact_pressure.floor", rest).at(0), pressure[2], 1e-12);
 }
 
 // At rest, all nodes of the upper surface are 0.03 m deep, and so are the nodes of the lower surface below the upper
@@ -170,6 +173,11 @@ TEST_P(ContactOf, PressureIsThatOfTheDepth) {
     if (x[0] > 0.165 && x[0] < 0.77 && x[1] > 0.13 && x[1] < 0.73) area += of_point;
   }
   EXPECT_NEAR(own, area * 10 * 0.025, 1e-12);
+  const State rest{0, s.zero(), s.zero()};  // the first surface is the lower one
+  const std::vector<double> force = s.model().evaluate("contact.contact_1", rest);
+  EXPECT_NEAR(force.at(2), -own, 1e-12);
+  EXPECT_NEAR(std::hypot(force.at(0), force.at(1)), 0, 1e-13);
+  EXPECT_NEAR(s.model().evaluate("contact_pressure.contact_1", rest).at(0), 20 * 0.025, 1e-12);
 }
 
 TEST(Contact, ActsBelowTheSurfaceUpToTheReachOnly) {
@@ -242,6 +250,10 @@ TEST(Contact, IsRefusedWithTheReason) {
   EXPECT_THAT(message("[lower.z1, upper.z9]"), HasSubstr("did you mean 'upper.z0'?"));
   EXPECT_THAT(message("[lower.z1, uper]"), HasSubstr("no surface or region 'uper'; did you mean 'upper'?"));
   EXPECT_THAT(message("[lower.z1, all]"), HasSubstr("a region for its whole outer surface (lower, upper)"));
+  const std::string ground = ", stiffness: 1, name: a}, {type: ground_contact, stiffness: 1, name: ";
+  EXPECT_EQ(message("[lower.z1, upper.z0]" + ground + "b}, {type: contact, between: [lower.z1, upper.z0]"), "accepted");
+  EXPECT_THAT(message("[lower.z1, upper.z0]" + ground + "a}, {type: contact, between: [lower.z1, upper.z0]"),
+              HasSubstr("'a' is used twice among contacts"));
 }
 
 }  // namespace

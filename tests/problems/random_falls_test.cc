@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/contact/contact_input.h"
 #include "tests/material/constants.h"
 #include "tests/problems/running.h"

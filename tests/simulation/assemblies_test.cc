@@ -85,11 +85,91 @@ time: {end: 1}
   }
 }
 
-TEST_F(Resume, TablesHaveTheColumnsOfJoints) {
+// A rigid bar turns by 10 rad/s about a hinge: five turns in 3.14 s, in two runs.
+const char* const kRotor = R"(
+mesh:
+  type: bodies
+  bodies:
+    bar: {mesh: {type: box, size: [0.04, 0.04, 0.4], cells: [1, 1, 1], elements: hexahedra, order: 1, origin: [-0.02, -0.02, -0.4]}}
+materials: {m: {type: isotropic, density: 500, young: 1e6, nu: 0.3}}
+regions: {bar: {material: m, rigid: true}}
+joints: [{type: hinge, name: pivot, from: [0, -0.02, 0], to: [0, 0.02, 0], first: {region: bar}}]
+initial: {velocity_field: ["10*z", 0, "-10*x"]}
+time: {end: 1.5}
+checkpoint: {every: 1000}
+events: [{quantity: coordinate.pivot, crosses: 20, name: turned}]
+output: {reactions: true, mesh_error: false}
+integrator: {type: ida_bdf, rtol: 1e-6}
+)";
+
+TEST_F(Resume, AnglesOfHingesCountTurns) {
+  write("rotor.yaml", kRotor);
+  for (const std::string method : {"ida_bdf", "cvode_bdf", "generalized_alpha"}) {
+    const std::string run = "run rotor.yaml --quiet --set integrator.type=" + method + " --out " + method;
+    const auto first = orthodyn(run);
+    ASSERT_EQ(first.exit_code, 0) << first.output;
+    ASSERT_EQ(orthodyn(run + " --resume --set time.end=3.14").exit_code, 0) << method;
+    const auto rows = read_rows(folder_ / method / "probes.csv");
+    for (const auto& row : rows) EXPECT_NEAR(row.back(), 10 * row.at(0), 2e-3 * (1 + 10 * row.at(0))) << method;
+    EXPECT_NEAR(rows.back().back(), 31.4, 0.05) << method;
+    const auto events = read_rows(folder_ / method / "events.csv");
+    ASSERT_EQ(events.size(), 1u) << method;
+    EXPECT_NEAR(events[0].at(0), 2, 5e-3) << method;
+  }
+}
+
+// Springs of hinges see angles from -180 to 180 degrees, and a run in which that matters says so.
+TEST_F(Resume, ASpringThatIsWoundUpIsTold) {
+  std::string wound = kRotor;
+  wound.replace(wound.find("first: {region: bar}"), 20, "first: {region: bar}, spring: {stiffness: 1e-6}");
+  write("wound.yaml", wound);
+  const auto result = orthodyn("run wound.yaml --out wound");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("pivot turned by more than 180 degrees"));
+  EXPECT_THAT(orthodyn("run wound.yaml --out short --set time.end=0.2").output, Not(HasSubstr("180 degrees")));
+}
+
+// The far face of the block is no obstacle: the bar goes through it.
+TEST_F(Resume, AContactThatNeverActsIsTold) {
+  write("gong.yaml", kGong);
+  const std::string run = "run gong.yaml --out a --force --set time.end=0.1 --set ";
+  const std::string term = "{type: contact, between: [bar.x0, block.x1], stiffness: 1e9}";
+  const auto none = orthodyn(run + "'terms=[" + term + "]'");
+  ASSERT_EQ(none.exit_code, 0) << none.output;
+  EXPECT_THAT(none.output, HasSubstr("nothing touched: contact_1 had no force in any step"));
+  const auto one =
+      orthodyn(run + "'terms=[" + term + ", {type: barrier_contact, between: [bar, block], stiffness: 1e9}]'");
+  ASSERT_EQ(one.exit_code, 0) << one.output;
+  EXPECT_THAT(one.output, Not(HasSubstr("nothing touched")));
+  EXPECT_THAT(one.output, HasSubstr("never touched: contact_1\n"));
+}
+
+// Contact holds no body in statics; the message names the body that is free.
+TEST_F(Resume, ABodyThatContactAloneWouldHoldIsNamed) {
+  write("stack.yaml", R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}}
+    upper: {mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}, translation: [0, 0, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+regions: {lower: {material: m}, upper: {material: m}}
+terms: [{type: contact, between: [lower.z1, upper.z0], stiffness: 1e8}]
+gravity: [0, 0, -10]
+clamps: [{surface: lower.z0}]
+analysis: static
+)");
+  const auto result = orthodyn("run stack.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("[0.5, 0.5, 1.5] m (region upper)"));
+  EXPECT_THAT(result.output, HasSubstr("contact does not hold it"));
+}
+
+TEST_F(Resume, TablesHaveTheColumnsOfJointsAndContacts) {
   write("gong.yaml", kGong);
   ASSERT_EQ(orthodyn("run gong.yaml --quiet --out gong").exit_code, 0);
   const std::string header = read_text(folder_ / "gong/probes.csv");
-  for (const char* column : {"joint.pivot.x", "joint.pivot.z", "coordinate.pivot"})
+  for (const char* column : {"joint.pivot.x", "joint.pivot.z", "coordinate.pivot", "contact.contact_1.x"})
     EXPECT_THAT(header.substr(0, header.find('\n')), HasSubstr(column));
 }
 

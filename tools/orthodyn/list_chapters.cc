@@ -243,12 +243,15 @@ void list_quantities() {
   fmt::print("  joint.JOINT            Force of a joint on its first body, by its name (3 components, N).\n");
   fmt::print(
       "  coordinate.JOINT       Distance (m) along the line of a slot, cylindrical or slider joint, or angle (rad) of "
-      "a hinge (1 component).\n");
+      "a hinge with all turns (1 component).\n");
   fmt::print(
       "  motor.JOINT            Force (N) or torque (N m) of a joint's motor on its first body (1 component).\n");
   fmt::print("  joints.gap             Largest distance of joined points, and change of rods (1 component, m).\n");
   fmt::print("  joints.rate            Largest rate of these distances (1 component, m/s).\n");
   fmt::print("  tie.TIE                Force of the second surface of a tie on the first one (3 components, N).\n");
+  fmt::print("  contact.CONTACT        Force of a contact on its first surface, or of the ground (3 components, N).\n");
+  fmt::print("  contact_pressure.CONTACT\n");
+  fmt::print("                         Largest pressure of a contact (1 component, Pa).\n");
   fmt::print("  [REGION.]FIELD.largest, .smallest\n");
   fmt::print(
       "                         Over the nodes of the body or a region; tensors with a component "

@@ -122,6 +122,8 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
                motion.momentum->angular_drift / motion.momentum->angular_scale);
   if (const auto& j = motion.joints)
     fmt::print("  {:<15} at most {:.2g} m apart, at a rate of at most {:.2g} m/s\n", "joints", j->gap, j->rate);
+  if (const auto& c = motion.contacts; c && !c->untouched.empty() && c->untouched.size() < c->count)
+    fmt::print("  {:<15} never touched: {}\n", "contact", join(c->untouched));
   if (const auto& e = motion.segment_error)
     fmt::print(
         "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} segment{} of {} steps against {} "

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <string>
+
+#include "lib/core/types.h"
 
 namespace orthodyn {
 
@@ -10,6 +13,20 @@ struct NodalState;
 class Contact {
  public:
   virtual ~Contact() = default;
+
+  struct Label {
+    std::string name = {};   // of its outputs; empty if the input gives none
+    std::string place = {};  // in the input, for messages
+  };
+  virtual const Label& label() const = 0;
+
+  // The force on the first surface, or that of a plane on the body, N. Contact of a surface with itself has none: the
+  // sum of its forces is zero.
+  virtual bool has_resultant() const { return true; }
+  virtual Vec3 resultant(const NodalState&) const = 0;
+
+  // The pressure at the deepest point, or where surfaces are nearest, Pa.
+  virtual double largest_pressure(const NodalState&) const = 0;
 
   // The distance (m) over which the force changes, if one point takes up this energy (J): positions need to be exact to
   // a small part of it.

@@ -134,6 +134,15 @@ std::size_t ContactSurface::bytes() const {
          edges_.capacity() * sizeof(Edge);
 }
 
+Vec3 force_on(const ContactSurface& surface, const Term& term, const NodalState& s) {
+  NodalVector f = NodalVector::Zero(3, s.x.cols());
+  term.add_force(s, f);
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [point, area] : surface.areas())
+    if (!surface.middles().has(point)) sum += f.col(point);
+  return sum;
+}
+
 FaceMiddles joined(const ContactSurface& first, const ContactSurface& second) {
   FaceMiddles all = first.middles();
   all.append(second.middles());

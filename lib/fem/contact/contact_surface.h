@@ -59,6 +59,9 @@ class ContactSurface {
 // The middles of both surfaces; those of the second one are numbered after those of the first.
 FaceMiddles joined(const ContactSurface& first, const ContactSurface& second);
 
+// The force of a term on the nodes of a surface, N.
+Vec3 force_on(const ContactSurface& surface, const Term& term, const NodalState& s);
+
 // A point below a surface: its nearest place there has a depth. `distance.n` points into the body, from the surface to
 // the point.
 struct Touch {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "lib/config/spec.h"
 #include "lib/core/types.h"
@@ -40,15 +41,16 @@ struct Friction {
   }
 };
 
-// The keys `friction` and `creep` of a contact.
+// The keys `friction`, `creep` and `name` of a contact.
 template <class C>
-Spec<C> with_friction(Spec<C> spec, double C::*coefficient, double C::*creep) {
+Spec<C> with_friction(Spec<C> spec, double C::*coefficient, double C::*creep, std::string C::*name) {
   return std::move(spec)
       .key("friction", coefficient, "Coefficient of friction; 0: none. It acts against velocities, not in statics.",
            {.range = {.low = 0}})
       .key("creep", creep,
            "Sliding velocity at which friction reaches 0.7 of its limit. Bodies that stick creep by a fraction of it.",
-           {.unit = "m/s", .range = kPositive});
+           {.unit = "m/s", .range = kPositive})
+      .key("name", name, "Name of its outputs, such as contact.NAME; default contact_1, contact_2 and so on.");
 }
 
 }  // namespace orthodyn

@@ -13,6 +13,7 @@
 
 #include "lib/core/limit_error.h"
 #include "lib/fem/contact/barrier.h"
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/edge_weight.h"
 #include "lib/fem/contact/friction.h"
@@ -42,7 +43,7 @@ struct BarrierLaw {
   double gap = 0;        // m
   Friction friction = {};
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
-  std::string place = {};            // in the input, for messages
+  Contact::Label label = {};
 };
 
 class BarrierContact : public Term, public Contact {
@@ -150,6 +151,11 @@ class BarrierContact : public Term, public Contact {
     return 10 * law_.gap * std::min(1.0, std::cbrt(energy / (law_.stiffness * area * law_.gap * law_.gap / 2)));
   }
 
+  const Label& label() const override { return law_.label; }
+  bool has_resultant() const override { return second_.has_value(); }
+  Vec3 resultant(const NodalState& s) const override { return force_on(first_, *this, s); }
+  double largest_pressure(const NodalState& s) const override { return law_.stiffness * pressed_depth(s); }
+
   double pressed_depth(const NodalState& s) const override {
     const PointState at(middles_, s, false);
     double least = 1;
@@ -189,7 +195,7 @@ class BarrierContact : public Term, public Contact {
 
   void require_near(const NearPlace& place) const {
     if (const double apart = farthest_apart(place, rest_); apart > *law_.slide)
-      throw LimitError(law_.place,
+      throw LimitError(law_.label.place,
                        fmt::format("nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
                                    apart, *law_.slide));
   }
@@ -267,7 +273,7 @@ class BarrierContactChoice : public TermChoice {
                  "Largest distance at rest of nodes that touch later, with all nodes of the faces that they touch. It "
                  "saves memory; a run stops where it is too small. Default: no limit.",
                  {.unit = "m", .range = kPositive}),
-        &C::friction_, &C::creep_);
+        &C::friction_, &C::creep_, &C::name_);
     return s;
   }
 
@@ -278,8 +284,11 @@ class BarrierContactChoice : public TermChoice {
       second = contact_surface(body.mesh, between_[1], origin, first.middles().end());
       require_apart(first, *second, between_, origin);
     }
-    const BarrierLaw law{
-        stiffness_, allowed_gap(first, second ? *second : first, body.rest), {friction_, creep_}, slide_, origin.where};
+    const BarrierLaw law{.stiffness = stiffness_,
+                         .gap = allowed_gap(first, second ? *second : first, body.rest),
+                         .friction = {friction_, creep_},
+                         .slide = slide_,
+                         .label = {name_, origin.where}};
     const std::string name = is_of_one() ? fmt::format("barrier contact of {} with itself", between_[0])
                                          : fmt::format("barrier contact of {} and {}", between_[0], between_[1]);
     return std::make_unique<BarrierContact>(name, law, std::move(first), std::move(second), body.rest, body.pattern);
@@ -342,6 +351,7 @@ class BarrierContactChoice : public TermChoice {
   }
 
   std::array<std::string, 2> between_;
+  std::string name_;
   double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
   std::optional<double> gap_, slide_;
 };

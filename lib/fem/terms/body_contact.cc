@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lib/core/limit_error.h"
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/contact/contact_input.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/passing_time.h"
@@ -26,7 +27,7 @@ struct ContactLaw {
   double reach = 0;      // m; deeper nodes are not in contact
   Friction friction = {};
   std::optional<double> slide = {};  // m; the matrix has no entries of nodes that are farther apart at rest
-  std::string place = {};            // in the input, for messages
+  Contact::Label label = {};
 };
 
 class BodyContact : public Term, public Contact {
@@ -125,6 +126,10 @@ class BodyContact : public Term, public Contact {
                          law_.stiffness * std::max(largest_area(first_.areas()), largest_area(second_.areas())));
   }
 
+  const Label& label() const override { return law_.label; }
+  Vec3 resultant(const NodalState& s) const override { return force_on(first_, *this, s); }
+  double largest_pressure(const NodalState& s) const override { return law_.stiffness * pressed_depth(s); }
+
   double pressed_depth(const NodalState& s) const override {
     const PointState at(middles_, s, false);
     double deepest = 0;
@@ -161,7 +166,7 @@ class BodyContact : public Term, public Contact {
     if (!law_.slide) return;
     for (const int corner : touch.triangle)
       if (const double apart = (rest_.col(corner) - rest_.col(touch.point)).norm(); apart > *law_.slide)
-        throw LimitError(law_.place,
+        throw LimitError(law_.label.place,
                          fmt::format("nodes that are {:.3g} m apart at rest touch, but `slide` is {:.3g} m: raise it",
                                      apart, *law_.slide));
   }
@@ -203,7 +208,7 @@ class BodyContactChoice : public TermChoice {
                 config.at("between").fail(
                     "names one surface twice; contact of a surface with itself needs the type barrier_contact");
             }),
-        &C::friction_, &C::creep_);
+        &C::friction_, &C::creep_, &C::name_);
     return s;
   }
 
@@ -211,9 +216,12 @@ class BodyContactChoice : public TermChoice {
     ContactSurface first = surface(body.mesh, 0), second = surface(body.mesh, 1, first.middles().end());
     require_apart(first, second, between_, origin);
     const double edge = std::min(first.mean_edge(), second.mean_edge());
-    const ContactLaw law{
-        stiffness_,  onset_.value_or(0.01 * edge), reach_.value_or(0.5 * edge), {friction_, creep_}, slide_,
-        origin.where};
+    const ContactLaw law{.stiffness = stiffness_,
+                         .onset = onset_.value_or(0.01 * edge),
+                         .reach = reach_.value_or(0.5 * edge),
+                         .friction = {friction_, creep_},
+                         .slide = slide_,
+                         .label = {name_, origin.where}};
     return std::make_unique<BodyContact>(fmt::format("contact of {} and {}", between_[0], between_[1]), law,
                                          std::move(first), std::move(second), body.rest, body.pattern);
   }
@@ -236,6 +244,7 @@ class BodyContactChoice : public TermChoice {
   }
 
   std::array<std::string, 2> between_;
+  std::string name_;
   double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
   std::optional<double> onset_, reach_, slide_;
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "lib/fem/block_pattern.h"
+#include "lib/fem/contact/contact.h"
 #include "lib/fem/contact/friction.h"
 #include "lib/fem/contact/penalty.h"
 #include "lib/fem/contact/point_blocks.h"
@@ -24,6 +25,7 @@ struct GroundPlane {
   double stiffness = 0;                        // Pa/m
   double onset = 0;                            // w, m
   Friction friction = {};
+  Contact::Label label = {};
 };
 
 // Mean of psi' over [a, b]. Simpson's rule is exact if psi' is a single polynomial in [a, b]. It also replaces the
@@ -112,6 +114,19 @@ class GroundContact : public Term, public Contact {
 
   const Contact* contact() const override { return this; }
 
+  const Label& label() const override { return plane_.label; }
+  Vec3 resultant(const NodalState& s) const override {
+    NodalVector f = NodalVector::Zero(3, s.x.cols());
+    add_force(s, f);
+    return f.rowwise().sum();
+  }
+  double largest_pressure(const NodalState& s) const override {
+    const PointState at(middles_, s, false);
+    double deepest = 0;
+    for_each_touch(at.x, [&](int, double d, double) { deepest = std::max(deepest, d); });
+    return plane_.stiffness * penalty_slope(deepest, plane_.onset);
+  }
+
   double range(double energy) const override { return penalty_depth(energy, plane_.stiffness * largest_area(areas_)); }
 
  private:
@@ -149,7 +164,7 @@ class GroundContactChoice : public TermChoice {
             .check([](const G& ground, const Config& config) {
               if (ground.normal_.norm() == 0) config.at("normal").fail("is zero; give a direction");
             }),
-        &G::friction_, &G::creep_);
+        &G::friction_, &G::creep_, &G::name_);
     return s;
   }
 
@@ -159,8 +174,8 @@ class GroundContactChoice : public TermChoice {
     FaceMiddles middles(static_cast<int>(body.mesh.nodes.size()));
     auto areas = contact_areas(body.mesh, faces, middles);
     return std::make_unique<GroundContact>(
-        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}}, std::move(areas),
-        std::move(middles), body.pattern);
+        GroundPlane{point_, normal_.normalized(), stiffness_, onset, {friction_, creep_}, {name_, origin.where}},
+        std::move(areas), std::move(middles), body.pattern);
   }
 
   void declare(Traits& traits) const override {
@@ -175,6 +190,7 @@ class GroundContactChoice : public TermChoice {
   double stiffness_ = 0, friction_ = 0, creep_ = Friction().creep;
   std::optional<double> onset_;
   std::optional<std::string> surface_;
+  std::string name_;
 };
 
 const bool ground_contact_registered = Registry<TermChoice>::add<GroundContactChoice>(

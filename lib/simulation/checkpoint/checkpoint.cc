@@ -19,7 +19,7 @@ namespace {
 using SortedJson = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 7;
+constexpr int kVersion = 8;
 constexpr const char* kCheckpointMark = "orthodyn checkpoint ";
 constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // bytes: CBOR header, mark, version, space, fingerprint
 
@@ -72,6 +72,7 @@ SortedJson to_json(const Checkpoint& c) {
           {"v", numbers(c.state.v)},
           {"z", numbers(c.state.z)},
           {"lambda", numbers(c.state.lambda)},
+          {"angles", numbers(c.state.angles)},
           {"last_output", c.last_output},
           {"last_history", c.last_history},
           {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
@@ -86,8 +87,8 @@ Checkpoint from_json(const SortedJson& json) {
   c.mesh = json.at("mesh");
   c.files = json.at("files").get<std::map<std::string, std::string>>();
   c.begun = json.at("begun");
-  c.state = {json.at("t"),         vector(json.at("q")),     vector(json.at("v")), 1,
-             vector(json.at("z")), vector(json.at("lambda"))};
+  c.state = {json.at("t"),         vector(json.at("q")),      vector(json.at("v")),     1,
+             vector(json.at("z")), vector(json.at("lambda")), vector(json.at("angles"))};
   c.last_output = json.at("last_output");
   c.last_history = json.at("last_history");
   const auto& rhythm = json.at("rhythm");

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "lib/fem/contact/contact.h"
+
 namespace orthodyn {
 
 namespace {
 
-// Forces of supports, joints and ties, and the coordinates of joints.
+// Forces of supports, joints, ties and contacts, and the coordinates of joints.
 std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
   std::vector<std::string> names;
   for (const Support& support : parts.supports)
@@ -18,6 +20,21 @@ std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
     if (joint.motor()) names.push_back("motor." + joint.name);
   }
   for (const NamedTie& tie : parts.ties) names.push_back("tie." + tie.name);
+  for (const auto& [name, contact] : parts.contacts)
+    if (contact->has_resultant()) names.push_back("contact." + name);
+  return names;
+}
+
+std::vector<std::string> names_of(const std::vector<NamedContact>& contacts) {
+  std::vector<std::string> names;
+  for (const NamedContact& contact : contacts) names.push_back(contact.name);
+  return names;
+}
+
+std::vector<std::string> sprung_hinges(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const JointInput& joint : scene.joints)
+    if (joint.turns() && (joint.spring || joint.stop)) names.push_back(joint.name);
   return names;
 }
 
@@ -52,7 +69,8 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (!scene.output.extremes.empty()) extremes.emplace(scene, model);
   if (setup.sensitivities) observe_sensitivities(setup, folder);
   if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
-  if (model.constraints()) joints.emplace();
+  if (model.constraints()) joints.emplace(sprung_hinges(scene));
+  if (const auto names = names_of(model.parts().contacts); !names.empty()) contacts.emplace(names);
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 
@@ -80,6 +98,7 @@ NamedObservers RunObservers::checkpointed() {
   add("extremes", extremes);
   add("strains", strains);
   add("joints", joints);
+  add("contacts", contacts);
   add("linearity", linearity_);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/simulation/checkpoint/checkpointer.h"
+#include "lib/simulation/output/contact_watch.h"
 #include "lib/simulation/output/curves.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/frames.h"
@@ -44,6 +45,7 @@ class RunObservers {
   std::optional<ExtremeRecorder> extremes;
   std::optional<StrainWatch> strains;
   std::optional<JointWatch> joints;
+  std::optional<ContactWatch> contacts;
 
  private:
   void observe_sensitivities(const Setup& setup, const std::filesystem::path& folder);

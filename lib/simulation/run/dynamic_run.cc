@@ -202,6 +202,7 @@ class DynamicAnalysis {
       out.joints = j->largest();
       out.joints_extent = bounding_box(setup_.built.model->parts().mesh).size().maxCoeff();
     }
+    if (const auto& c = observers.contacts) out.contacts = c->record();
     out.events_not_found = observers.events_not_found();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     if (out.mesh_error && outcome.status == Outcome::Status::completed)

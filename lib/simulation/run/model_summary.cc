@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/spelling.h"
+#include "lib/fem/contact/contact.h"
 
 namespace orthodyn {
 

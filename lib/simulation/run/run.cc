@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lib/core/cause.h"
+#include "lib/simulation/run/turn_count.h"
 
 namespace orthodyn {
 
@@ -57,6 +58,7 @@ class Driver {
         observed_at_(outcome.last.t),
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
         limits_(model.step_limits(outcome.last.t, plan.end)),
+        turns_(model, outcome.last),
         outputs_(plan.output_times),
         history_(plan.history_times) {
     outcome.unresolved_change = limits_.unresolved();
@@ -136,11 +138,12 @@ class Driver {
       outcome_.between_steps = false;
       const Measure measure(outcome_.observation);
       observed_at_ = info.t;
+      count_turns(info.t);
       const Event* stopper = deliver_events(begin, info);
       deliver_outputs(info.t);
       if (stopper) deliver_last_output(info.t);
       observed_at_ = info.t;
-      integrator_.interpolate(info.t, outcome_.last);
+      interpolate(info.t, outcome_.last);
       const ObservedState end(model_, outcome_.last);
       if (plan_.history_at_steps) notify_history(end);
       for (auto* o : observers_) o->on_step(info, end, integrator_);
@@ -153,14 +156,26 @@ class Driver {
     return true;
   }
 
+  void count_turns(double end) {
+    if (turns_.empty()) return;
+    State state;
+    integrator_.interpolate(end, state);
+    turns_.advance(state);
+  }
+
+  void interpolate(double t, State& out) const {
+    integrator_.interpolate(t, out);
+    if (!turns_.empty()) out.angles = turns_.at(t);
+  }
+
   // Returns the event that stops the run, if any; the step then ends at the event.
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
-    const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
     const double end = info.t, h = end - begin, parts = smooth_parts(integrator_, h);
     for (double part = 0; part < parts; ++part) {
       const double to = part + 1 < parts ? begin + (part + 1) * h / parts : end;
-      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_, interpolate)) {
+      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_,
+                                                         [this](double t, State&out) { interpolate(t, out); })) {
         deliver_outputs(crossing.state.t);
         for (auto* o : observers_) o->on_event(crossing);
         if (!crossing.event->stops) continue;
@@ -186,7 +201,7 @@ class Driver {
   void deliver(double t, bool is_output, bool is_history) {
     State state;
     observed_at_ = t;
-    integrator_.interpolate(t, state);
+    interpolate(t, state);
     const ObservedState observed(model_, state);
     if (is_history) notify_history(observed);  // first: on_output may throw (LinearityWatch)
     if (!is_output) return;
@@ -222,6 +237,7 @@ class Driver {
   double observed_at_;                                          // s, the state that observers see
   double tiny_;  // outputs closer than this to a stop are moved to the stop, s
   StepLimits limits_;
+  TurnCount turns_;
   std::vector<double> stops_;
   DueTimes outputs_, history_;
   std::optional<double> last_output_, last_history_;

@@ -150,6 +150,7 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
     out["momentum"] = {{"angular_drift", motion.momentum->angular_drift},
                        {"angular_scale", motion.momentum->angular_scale}};
   if (const auto& j = motion.joints) out["joints"] = {{"largest_gap", j->gap}, {"largest_rate", j->rate}};
+  if (const auto& c = motion.contacts) out["contacts"] = {{"count", c->count}, {"untouched", c->untouched}};
   if (const auto& e = motion.segment_error)
     out["accumulated_error"] = {{"error", e->error}, {"parts", e->segments},  {"steps_each", e->steps},
                                 {"since", e->since}, {"against", e->against}, {"wall_seconds", e->wall_seconds}};

@@ -14,6 +14,7 @@
 #include "lib/simulation/error_estimate/mesh_error.h"
 #include "lib/simulation/error_estimate/segment_error_estimate.h"
 #include "lib/simulation/output/balance.h"
+#include "lib/simulation/output/contact_watch.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/joint_watch.h"
 #include "lib/simulation/output/strain_watch.h"
@@ -72,6 +73,7 @@ struct MotionResult {
   std::optional<MomentumSummary> momentum = {};            // if the scene writes momentum.csv
   std::optional<JointErrors> joints = {};                  // if the scene has joints
   double joints_extent = 0;                                // of the mesh, m
+  std::optional<ContactRecord> contacts = {};              // if the scene has contact
   std::optional<FailurePlace> failure = {};                // of a failed run
   std::optional<SegmentErrorEstimate> segment_error = {};  // of a long run
   std::optional<ErrorEstimate> error = {};                 // if requested

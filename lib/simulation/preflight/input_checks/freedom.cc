@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/contact/contact.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/selection.h"
 #include "lib/simulation/preflight/input_checks/check_context.h"
