@@ -198,13 +198,19 @@ Vector FemModel::whole_of(const Vector& part) const {
 }
 
 State FemModel::whole(const State& state) const {
-  return {state.t, whole_of(state.q), whole_of(state.v), state.load_factor, state.z, state.lambda, state.angles};
+  State out = state;
+  out.q = whole_of(state.q);
+  out.v = whole_of(state.v);
+  return out;
 }
 
 Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Vector(all(parts_.unknowns)) : all; }
 
 State FemModel::part(const State& whole) const {
-  return {whole.t, part_of(whole.q), part_of(whole.v), whole.load_factor, whole.z, whole.lambda};
+  State out = whole;
+  out.q = part_of(whole.q);
+  out.v = part_of(whole.v);
+  return out;
 }
 
 // Rotations are about the mean node position and scaled by the body's size, so that all columns have similar norms.

@@ -306,6 +306,8 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   written.begun = true;
   written.state = {0.1, Vector::Random(50) * 1e-300, Vector::Random(50)};
   written.state.v[3] = std::numeric_limits<double>::infinity();
+  written.state.lambda = Vector::Random(3);
+  written.state.angles = Vector::Random(2);
   written.schedule = {0, 1.0 / 3, 1e-9};
   written.cost.statistics.newton_iterations = 123456789;
   written.cost.statistics.solve = {7, 0.3};
@@ -317,6 +319,8 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   EXPECT_EQ(read.state.t, written.state.t);
   EXPECT_EQ(read.state.q, written.state.q);
   EXPECT_EQ(read.state.v, written.state.v);
+  EXPECT_EQ(read.state.lambda, written.state.lambda);
+  EXPECT_EQ(read.state.angles, written.state.angles);
   EXPECT_EQ(read.schedule.end, written.schedule.end);
   EXPECT_EQ(read.cost.statistics.newton_iterations, 123456789);
   EXPECT_EQ(read.cost.statistics.solve.seconds, 0.3);

@@ -160,13 +160,17 @@ void print_supports(const FemModel& model) {
 }
 
 // `extent`: of the mesh, m. Coordinates far below it are round-off.
+std::string point_text(const Vec3& point, double extent) {
+  const Vec3 x = (point.array().abs() > 1e-9 * extent).select(point, 0);
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]);
+}
+
 void print_rigid_body(const RigidBody& body, double extent) {
   const RigidInertia& inertia = body.inertia;
-  const Vec3 center = (inertia.center.array().abs() > 1e-9 * extent).select(inertia.center, 0);
   const Vec3 J = inertia.principal_moments();
   fmt::print("  {}: {} nodes, {}\n", body.name, body.nodes().size(), body.is_held ? "held" : "free");
-  fmt::print("    mass {:.6g} kg, centre [{:.6g}, {:.6g}, {:.6g}] m, principal moments {:.4g}, {:.4g}, {:.4g} kg m^2\n",
-             inertia.mass, center[0], center[1], center[2], J[0], J[1], J[2]);
+  fmt::print("    mass {:.6g} kg, centre {} m, principal moments {:.4g}, {:.4g}, {:.4g} kg m^2\n", inertia.mass,
+             point_text(inertia.center, extent), J[0], J[1], J[2]);
 }
 
 void print_connections(const FemModel& model) {
@@ -211,8 +215,8 @@ int check(const CheckArguments& arguments) {
   fmt::print("mesh\n  {} nodes, {}, regions {}\n", parts.mesh.nodes.size(), describe_cells(parts.mesh.cells),
              join(parts.mesh.region_names));
   const Box box = bounding_box(parts.mesh);
-  fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),
-             parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
+  fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", point_text(box.min, box.diagonal()),
+             point_text(box.max, box.diagonal()), parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
   for (const auto& sentence : thin_regions(parts)) fmt::print(stderr, "warning: {}\n", sentence);
   fmt::print("materials\n");
   print_materials(setup.scene, setup.built.model->traits().linear);
