@@ -1,5 +1,12 @@
 #include "integrators/damping_ratio.h"
 
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "integrators/newton_matrix.h"
+#include "integrators/random_vector.h"
+
 namespace orthodyn {
 
 namespace {
@@ -12,12 +19,41 @@ constexpr double kScaleOfMotion = 0.1;
 // damping ratio of 0.003, order 5 becomes inaccurate for a beam with a stiff part.
 constexpr double kWellDamped = 1e-3, kWellDampedIfLoose = 5e-3, kLoose = 5e-3;
 
+// x^T D x/x^T K x (s) of vibrations up to about the frequency omega (rad/s): x has two factors (omega^2 M + K)^-1 M.
+// Infinite if K is indefinite or x has no stiffness.
+double damping_time_below(const Model& model, const State& start, double omega) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  Statistics unused;
+  NewtonMatrix matrix(model, "auto", TangentKind::exact, unused);
+  matrix.linearize(start.t, start.q, start.v);
+  if (!matrix.factor({omega * omega, 0, 1})) return kUnknown;
+  Vector x = random_vector(model), y(x.size());
+  for (int k = 0; k < 2; ++k) {
+    model.multiply_mass(x, y);
+    matrix.solve(y, x);
+  }
+  Linearization at;
+  model.linearize(start.t, start.q, start.v, TangentKind::exact, at);
+  std::vector<double> D(model.pattern().row.size());
+  model.combine({0, 1, 0}, at, D.data());
+  const VectorSpace space = model.space();
+  matrix.multiply_stiffness(x, y);
+  const double stiffness = space.dot(x, y);
+  model.multiply_matrix(D.data(), x, y);
+  return stiffness > 0 ? std::max(space.dot(x, y), 0.0) / stiffness : kUnknown;
+}
+
 }  // namespace
 
 double frequency_of_motion(const Scales& scales) { return kScaleOfMotion * scales.velocity / scales.position; }
 
-double damping_ratio_of_motion(const CriticalStep& critical, const Scales& scales) {
-  return critical.damping_time() * frequency_of_motion(scales) / 2;
+double damping_ratio_of_motion(const Model& model, const State& start, const CriticalStep& critical,
+                               const Scales& scales) {
+  const double omega = frequency_of_motion(scales);
+  double time = critical.damping_time();
+  if (!model.traits().linear && !model.space().is_zero(start.q))
+    time = std::min(time, damping_time_below(model, start, omega));
+  return time * omega / 2;
 }
 
 bool suits_high_orders(double damping_ratio, double rtol) {

@@ -14,10 +14,10 @@ int bdf_order(const std::optional<int>& given, const Model& model, const State& 
   CriticalStep critical(model, unused);
   try {
     critical.at_present(start);
+    return suits_high_orders(damping_ratio_of_motion(model, start, critical, scales), rtol) ? 5 : 2;
   } catch (const RecoverableError&) {  // Integrator::start() reports the error
     return 2;
   }
-  return suits_high_orders(damping_ratio_of_motion(critical, scales), rtol) ? 5 : 2;
 }
 
 }  // namespace orthodyn::sundials

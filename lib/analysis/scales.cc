@@ -12,8 +12,17 @@ namespace orthodyn {
 
 namespace {
 
+// Of a displaced body, the elastic energy is limited by half of |f| |q|, with the force f: in an equilibrium under
+// tension it remains where it is.
 double initial_energy(const FemModel& model, const State& state) {
-  return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
+  const VectorSpace space = model.space();
+  double elastic = model.evaluate("energy.elastic", state)[0];
+  if (!space.is_zero(state.q)) {
+    Vector f(state.q.size());
+    model.force(state.t, state.q, Vector::Zero(state.q.size()), f);
+    elastic = std::min(elastic, space.sum_of_sizes(f.cwiseProduct(state.q)) / 2);
+  }
+  return model.evaluate("energy.kinetic", state)[0] + elastic;
 }
 
 // Largest displacement and speed of moved supports and of motors; zero without any.
