@@ -40,7 +40,7 @@ const DiscreteGradient& gradient_of(const Model& model) {
     throw ConfigError(
         "energy_momentum needs a force that is the gradient of an energy. The warped force is not (use "
         "elasticity.corotation: exact), nor is the force of moved nodes with a consistent mass (use mass: lumped). "
-        "Contact of bodies has no mean force between two states. Or choose another integrator");
+        "Contact of bodies and forces of joints have no mean force between two states. Or choose another integrator");
   return *gradient;
 }
 

@@ -312,16 +312,17 @@ double FemModel::longest_step(const State& state) const {
 }
 
 Angles FemModel::angles(const State& state) const {
-  const auto turns = [](const Joint& joint) { return joint.coordinate && joint.coordinate->is_angle(); };
+  const auto turns = [](const Joint& joint) { return joint.turn() != nullptr; };
   const auto count = std::count_if(parts_.joints.begin(), parts_.joints.end(), turns);
   if (count == 0) return {};
   const NodalExpansion nodal(parts_, state.t, state.q, state.v);
   Angles out{Vector(count), Vector(count)};
   Eigen::Index i = 0;
   for (const Joint& joint : parts_.joints) {
-    if (!turns(joint)) continue;
-    out.values[i] = joint.coordinate->value(nodal.u);
-    out.rates[i++] = joint.coordinate->rate(nodal.u, nodal.u_rate);
+    const JointCoordinate* turn = joint.turn();
+    if (!turn) continue;
+    out.values[i] = turn->value(nodal.u);
+    out.rates[i++] = turn->rate(nodal.u, nodal.u_rate);
   }
   return out;
 }

@@ -131,7 +131,7 @@ class FemModel : public Model {
 
   Parts parts_;
   std::unique_ptr<const InternalVariables> internal_;   // null without viscoelastic materials
-  std::unique_ptr<const Constraints> constraints_;      // null without joints
+  std::unique_ptr<const Constraints> constraints_;      // null if no joint holds
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null if a force has no energy, or with several ranks
 };
 
@@ -186,15 +186,15 @@ void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, cons
 // of the terms' first variables.
 std::unique_ptr<const InternalVariables> make_internal_variables(FemModel::Parts& parts);
 
-// The constraints of the joints; null without any. `parts` must outlive the result.
+// The constraints of the joints; null if no joint holds anything. `parts` must outlive the result.
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts);
 // Forces of all joints on the nodes, and of one joint on its first body (N), at displacements u with the multipliers
 // lambda; joint_force() is NaN without multipliers.
 NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda);
 Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda);
-// The force (N) or torque (N m) of a joint's motor on the first body; NaN without multipliers. The power of all motors,
-// W; 0 without multipliers.
-double motor_force(const FemModel::Parts& parts, const Joint& joint, const Vector& lambda);
+// The force (N) or torque (N m) of a joint's motor on the first body at time t (s); NaN without multipliers. The power
+// of all motors, W; 0 without multipliers.
+double motor_force(const FemModel::Parts& parts, const Joint& joint, double t, const Vector& lambda);
 double motor_power(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda);
 
 // The discrete gradient of the model: the sum of Term::add_mean_force() and of the damping at mid-step. `parts` must

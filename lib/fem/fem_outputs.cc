@@ -354,10 +354,33 @@ std::vector<FemOutput> contact_outputs(const std::vector<NamedContact>& contacts
   return out;
 }
 
+namespace {
+
+// `coordinate` must outlive the result.
+FemOutput coordinate_output(const std::string& name, const JointCoordinate& coordinate) {
+  const char* const sentence = coordinate.is_stretch() ? "Change of the distance of the two points of the joint."
+                                                       : "Distance of the first body of the joint along the line.";
+  return {{name, Location::global, 1, coordinate.unit(), sentence},
+          [&coordinate](const View& view) { return Values{coordinate.value(view.nodal().u)}; }};
+}
+
+// `index`: of the angle among State::angles.
+FemOutput angle_output(const std::string& name, const JointCoordinate& coordinate, Eigen::Index index) {
+  return {{name, Location::global, 1, coordinate.unit(),
+           "Angle of the first body of the joint about the line, with all turns."},
+          [&coordinate, index](const View& view) {
+            const double angle = coordinate.value(view.nodal().u);
+            if (view.angles().size() == 0) return Values{angle};
+            return Values{nearest_turns(Vector::Constant(1, angle), view.angles().segment(index, 1))[0]};
+          }};
+}
+
+}  // namespace
+
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
   std::vector<FemOutput> out;
   for (const Joint& joint : joints)
-    if (joint.of == Joint::Of::bodies)
+    if (joint.of == Joint::Of::bodies && joint.holds())
       out.push_back(
           {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
            [&joint](const View& view) {
@@ -365,25 +388,22 @@ std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
            }});
   Eigen::Index num_angles = 0;
   for (const Joint& joint : joints) {
-    if (joint.coordinate && joint.coordinate->is_angle())
-      out.push_back({{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
-                      "Angle of the first body of the joint about the line, with all turns."},
-                     [&joint, i = num_angles++](const View& view) {
-                       const double angle = joint.coordinate->value(view.nodal().u);
-                       if (view.angles().size() == 0) return Values{angle};
-                       return Values{nearest_turns(Vector::Constant(1, angle), view.angles().segment(i, 1))[0]};
-                     }});
-    else if (joint.coordinate)
-      out.push_back({{"coordinate." + joint.name, Location::global, 1, joint.coordinate->unit(),
-                      "Distance of the first body of the joint along the line."},
-                     [&joint](const View& view) { return Values{joint.coordinate->value(view.nodal().u)}; }});
+    if (const JointCoordinate* turn = joint.turn()) {
+      if (joint.coordinate->is_angle()) out.push_back(angle_output("coordinate." + joint.name, *turn, num_angles));
+      if (joint.angle) out.push_back(angle_output("angle." + joint.name, *turn, num_angles));
+      ++num_angles;
+    }
+    if (joint.coordinate && !joint.coordinate->is_angle())
+      out.push_back(coordinate_output("coordinate." + joint.name, *joint.coordinate));
+    if (joint.slide) out.push_back(coordinate_output("slide." + joint.name, *joint.slide));
     if (joint.motor())
-      out.push_back(
-          {{"motor." + joint.name, Location::global, 1, joint.coordinate->is_angle() ? "N m" : "N",
-            "Force or torque of the joint's motor on its first body."},
-           [&joint](const View& view) { return Values{motor_force(view.parts(), joint, view.multipliers())}; }});
+      out.push_back({{"motor." + joint.name, Location::global, 1, joint.coordinate->is_angle() ? "N m" : "N",
+                      "Force or torque of the joint's motor on its first body."},
+                     [&joint](const View& view) {
+                       return Values{motor_force(view.parts(), joint, view.nodal().time, view.multipliers())};
+                     }});
   }
-  if (joints.empty()) return out;
+  if (std::none_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.holds(); })) return out;
   const auto largest = [](const View& view, bool of_rates) {
     const auto constraints = make_joint_constraints(view.parts());
     Vector q(view.parts().dofs->num_dofs()), v(q.size()), g(constraints->size());

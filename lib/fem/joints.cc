@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -55,9 +56,17 @@ Spans spans_of(const JointEquation& e, const Turn& turn, At&& at) {
   return {at(e.first) - at(e.second), combined(e, turn.third, turn.fourth, at)};
 }
 
-// The prescribed distance of a slide, m, or its rate or curvature; 0 for other equations.
-double slide(const JointEquation& e, double (JointMotor::*of)(double) const, double t) {
-  return e.kind == JointEquation::Kind::slide ? (e.motor.*of)(t) : 0;
+// What a slide or a stretch subtracts in g, m, and its first and second derivative by time; 0 for other equations.
+struct Course {
+  double value = 0, rate = 0, curvature = 0;
+};
+
+Course course_of(const JointEquation& e, double t) {
+  if (e.kind != JointEquation::Kind::slide && e.kind != JointEquation::Kind::stretch) return {};
+  const double m = e.motor.value(t), rate = e.motor.rate(t), curvature = e.motor.curvature(t);
+  if (e.kind == JointEquation::Kind::slide) return {m, rate, curvature};
+  const double twice = e.length();  // the distance at rest, m
+  return {m + m * m / twice, rate * (1 + 2 * m / twice), curvature * (1 + 2 * m / twice) + 2 * rate * rate / twice};
 }
 
 // The derivatives of constraint k of an equation by the places of its four points.
@@ -84,7 +93,7 @@ void for_each_point(const JointEquation& e, const Slopes& at, Visit&& visit) {
 
 // The partial derivative of a driven constraint by time.
 double rate_of_motor(const JointEquation& e, double t, const NodalVector& u) {
-  if (e.kind == JointEquation::Kind::slide) return -e.motor.rate(t);
+  if (e.kind != JointEquation::Kind::turn) return -course_of(e, t).rate;
   const Turn turn = turn_of(e, t);
   const Vec3 r = spans_of(e, turn, Place{u}).r;
   return r.dot(combined(e, turn.third_rate, turn.fourth_rate, Place{u})) / e.length();
@@ -126,7 +135,7 @@ class JointConstraints final : public Constraints {
       const Spans rest = spans_of(e, turn, Rest{});
       const double change_at_rest = e.kind == JointEquation::Kind::turn ? rest.r.dot(rest.s) : 0;
       g[i] = (change_at_rest + change.r.dot(rest.s + change.s) + rest.r.dot(change.s)) / e.length() -
-             slide(e, &JointMotor::value, t);
+             course_of(e, t).value;
     });
   }
 
@@ -183,7 +192,7 @@ class JointConstraints final : public Constraints {
       const Vec3 s_curvature = of_supports.s + 2 * combined(e, turn.third_rate, turn.fourth_rate, Mean{nodal.u_rate}) +
                                combined(e, turn.third_curvature, turn.fourth_curvature, Place{nodal.u});
       c[i] = (2 * rate.r.dot(s_rate) + of_supports.r.dot(at.s) + at.r.dot(s_curvature)) / e.length() -
-             slide(e, &JointMotor::curvature, t);
+             course_of(e, t).curvature;
     });
   }
 
@@ -219,7 +228,7 @@ NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nod
   return f;
 }
 
-// The third point belongs to the first body if the distance is kept, else to the second one.
+// The third point belongs to the first body in equations of a distance, else to the second one.
 Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda) {
   if (lambda.size() == 0) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3 sum = Vec3::Zero();
@@ -229,7 +238,7 @@ Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalEx
       for (int k = 0; k < e.size() && &other == &joint; ++k) {
         const Slopes at = slopes(e, k, nodal.time, nodal.u);
         sum -= lambda[first + k] * at.first;
-        if (e.kind == JointEquation::Kind::distance) sum -= lambda[first + k] * at.third;
+        if (e.is_of_distance()) sum -= lambda[first + k] * at.third;
       }
       first += e.size();
     }
@@ -237,13 +246,13 @@ Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalEx
 }
 
 // g = per_coordinate() times the coordinate, and power = lambda dg/dt: see motor_power().
-double motor_force(const FemModel::Parts& parts, const Joint& joint, const Vector& lambda) {
+double motor_force(const FemModel::Parts& parts, const Joint& joint, double t, const Vector& lambda) {
   if (lambda.size() == 0) return std::numeric_limits<double>::quiet_NaN();
   double force = 0;
   Eigen::Index first = 0;
   for (const Joint& other : parts.joints)
     for (const JointEquation& e : other.equations) {
-      if (&other == &joint && e.is_driven()) force = -lambda[first] * e.per_coordinate();
+      if (&other == &joint && e.is_driven()) force = -lambda[first] * e.per_coordinate(t);
       first += e.size();
     }
   return force;
@@ -261,14 +270,25 @@ double motor_power(const FemModel::Parts& parts, const NodalExpansion& nodal, co
   return power;
 }
 
+double JointEquation::per_coordinate(double t) const {
+  if (kind == Kind::turn) return (first.rest - second.rest).norm();
+  return kind == Kind::stretch ? 1 + 2 * motor.value(t) / length() : 1;
+}
+
 const JointEquation* Joint::motor() const {
   for (const JointEquation& e : equations)
     if (e.is_driven()) return &e;
   return nullptr;
 }
 
+const JointCoordinate* Joint::turn() const {
+  if (angle) return &*angle;
+  return coordinate && coordinate->is_angle() ? &*coordinate : nullptr;
+}
+
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts) {
-  if (parts.joints.empty()) return nullptr;
+  if (std::none_of(parts.joints.begin(), parts.joints.end(), [](const Joint& joint) { return joint.holds(); }))
+    return nullptr;
   return std::make_unique<JointConstraints>(parts);
 }
 

@@ -27,14 +27,15 @@ struct JointMotor {
 // coincide: two points are one. distance: two points keep their distance at rest. across: the span from the second
 // point to the first one stays at right angles to that from the second point to the third one. slide: the first point
 // is the distance m(t) along this span. turn: as across, with a span that turns by m(t) from that to the third point
-// towards that opposite to the fourth point.
+// towards that opposite to the fourth point. stretch: two points have their distance at rest plus m(t).
 //
 // All but `coincide` prescribe the product r . s of two spans, g = (r . s - r0 . s0) / length(): r from the second to
 // the first point, and s from the second to the third one, which is the first one if the distance is kept.
 //   slide: g = (r . s - r0 . s0) / length() - m(t)
 //   turn: s = cos(m) s3 - sin(m) s4, with the spans from the second point to the third and the fourth one.
+//   stretch: g = (r . r - r0 . r0) / (2 L) - m(t) - m(t)^2 / (2 L) with the distance L at rest: |r| = L + m(t).
 struct JointEquation {
-  enum class Kind { coincide, distance, across, slide, turn };
+  enum class Kind { coincide, distance, across, slide, turn, stretch };
   static JointEquation coincide(JointPoint a, JointPoint b) { return {Kind::coincide, std::move(a), std::move(b), {}}; }
   static JointEquation distance(const JointPoint& a, JointPoint b) { return {Kind::distance, a, std::move(b), a}; }
   static JointEquation across(JointPoint a, JointPoint b, JointPoint c) {
@@ -46,16 +47,20 @@ struct JointEquation {
   static JointEquation turn(JointPoint a, JointPoint b, JointPoint c, JointPoint d, JointMotor motor) {
     return {Kind::turn, std::move(a), std::move(b), std::move(c), std::move(d), std::move(motor)};
   }
+  static JointEquation stretch(const JointPoint& a, JointPoint b, JointMotor motor) {
+    return {Kind::stretch, a, std::move(b), a, {}, std::move(motor)};
+  }
 
   Kind kind;
   JointPoint first, second, third, fourth = {};
   JointMotor motor = {};
   int size() const { return kind == Kind::coincide ? 3 : 1; }
-  bool is_driven() const { return kind == Kind::slide || kind == Kind::turn; }
+  bool is_driven() const { return kind == Kind::slide || kind == Kind::turn || kind == Kind::stretch; }
+  bool is_of_distance() const { return kind == Kind::distance || kind == Kind::stretch; }
   // The derivative of r . s by the first constraint's distance, m.
-  double length() const { return (kind == Kind::distance ? 2 : 1) * (third.rest - second.rest).norm(); }
-  // The derivative of g by the joint's coordinate, of a driven joint: 1, or m per rad.
-  double per_coordinate() const { return kind == Kind::turn ? (first.rest - second.rest).norm() : 1; }
+  double length() const { return (is_of_distance() ? 2 : 1) * (third.rest - second.rest).norm(); }
+  // The derivative of g by the joint's coordinate at time t, of a driven joint: a number, or m per rad.
+  double per_coordinate(double t) const;
 };
 
 struct Joint {
@@ -65,9 +70,12 @@ struct Joint {
   std::string place;  // in the input, for messages
   std::vector<JointEquation> equations;
   Of of = Of::bodies;
-  std::optional<JointCoordinate> coordinate = {};  // of joints that slide or turn
+  std::optional<JointCoordinate> coordinate = {};         // along which springs, stops, friction, loads and motors act
+  std::optional<JointCoordinate> slide = {}, angle = {};  // of cylindrical joints: the coordinate is one of them
 
-  const JointEquation* motor() const;  // null without a motor
+  bool holds() const { return !equations.empty(); }  // false for struts
+  const JointEquation* motor() const;                // null without a motor
+  const JointCoordinate* turn() const;               // the angle between the bodies; null if the joint has none
 };
 
 }  // namespace orthodyn

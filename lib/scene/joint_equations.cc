@@ -104,6 +104,13 @@ Directions directions(const JointInput& joint, const Ends& ends) {
   return {line, side, other};
 }
 
+JointCoordinate turning(const JointInput& joint, const Ends& ends) {
+  const Vec3 from = *joint.from;
+  const auto [line, side, other] = directions(joint, ends);
+  return JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
+                                  ends.second(from + side), ends.second(from + other));
+}
+
 // Two points coincide. Two rigid bodies keep the distance of both points by themselves: then the second point is held
 // across the line only.
 void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
@@ -118,9 +125,7 @@ void add_hinge(const JointInput& joint, const Ends& ends, Joint& out) {
   const bool is_used = joint.motor || joint.has_forces();
   const bool has_angle =
       ends.first_can_hold(from + side) && ends.second_can_hold(from + side) && ends.second_can_hold(from + other);
-  if (!is_used && !has_angle) return;
-  out.coordinate = JointCoordinate::turning(ends.first(from), ends.first(from + side), ends.second(from),
-                                            ends.second(from + side), ends.second(from + other));
+  if (is_used || has_angle) out.coordinate = turning(joint, ends);
 }
 
 void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
@@ -137,7 +142,19 @@ void add_slide(const JointInput& joint, const Ends& ends, Joint& out) {
     out.equations.push_back(across(line, other));
   }
   if (joint.type == JointType::slider) out.equations.push_back(across(side, other));
-  out.coordinate = JointCoordinate::sliding(ends.first(from), ends.second(from), ends.second(*joint.to));
+  const JointCoordinate slide = JointCoordinate::sliding(ends.first(from), ends.second(from), ends.second(*joint.to));
+  out.coordinate = slide;
+  if (joint.type != JointType::cylindrical) return;
+  out.slide = slide;
+  if (joint.turns() || ends.first_can_hold(from + side)) out.angle = turning(joint, ends);
+  if (joint.turns()) out.coordinate = out.angle;
+}
+
+// The points of a strut, or of a rod whose length a motor prescribes. A rod without a motor has no coordinate.
+void add_stretch(const JointInput& joint, const Ends& ends, Joint& out) {
+  const JointPoint first = ends.first(*joint.from), second = ends.second(*joint.to);
+  if (joint.type == JointType::distance && !joint.motor) out.equations = {JointEquation::distance(first, second)};
+  else out.coordinate = JointCoordinate::stretching(first, second);
 }
 
 // Two rigid bodies share a point, and three pairs of their directions stay at right angles. Other bodies share three
@@ -160,8 +177,23 @@ void add_fixed(const JointInput& joint, const Ends& ends, Joint& out) {
         JointEquation::across(ends.first(at + size * of_first), ends.second(at), ends.second(at + size * of_second)));
 }
 
+// Refuses a course in which the points of a distance meet.
+void require_distance(const JointInput& joint, const JointMotor& motor, double start, double end) {
+  constexpr int kSamples = 1000;
+  const double length = (*joint.to - *joint.from).norm();
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = start + (end - start) * k / kSamples, changed = length + motor.value(t);
+    if (!(changed > 0))
+      joint.motor->origin.fail(
+          fmt::format("the distance of `from` and `to`, {:.4g} m at rest, would be {:.4g} m at t "
+                      "= {:.4g} s; it must stay above 0: `to` is the change of the distance",
+                      length, changed, t));
+  }
+}
+
 JointEquation driven(const JointInput& joint, const Ends& ends, JointMotor motor) {
   const Vec3 from = *joint.from;
+  if (joint.stretches()) return JointEquation::stretch(ends.first(from), ends.second(*joint.to), std::move(motor));
   if (joint.slides())
     return JointEquation::slide(ends.first(from), ends.second(from), ends.second(*joint.to), std::move(motor));
   const auto [line, side, other] = directions(joint, ends);
@@ -175,14 +207,15 @@ Joint JointInput::on(const Mesh& mesh, const std::vector<RigidBody>& rigid, doub
   const Ends ends(*this, mesh, rigid);
   Joint joint{name, origin.where, {}};
   if (type == JointType::ball) joint.equations = {JointEquation::coincide(ends.first(*at), ends.second(*at))};
-  else if (type == JointType::distance)
-    joint.equations = {JointEquation::distance(ends.first(*from), ends.second(*to))};
   else if (type == JointType::fixed) add_fixed(*this, ends, joint);
-  else if (turns()) add_hinge(*this, ends, joint);
+  else if (type == JointType::hinge) add_hinge(*this, ends, joint);
+  else if (stretches()) add_stretch(*this, ends, joint);
   else add_slide(*this, ends, joint);
   if (motor) {
     const auto resolved = motor->factor->over(start, end);
-    joint.equations.push_back(driven(*this, ends, {motor->to, resolved ? resolved : motor->factor}));
+    const JointMotor course{motor->to, resolved ? resolved : motor->factor};
+    if (stretches()) require_distance(*this, course, start, end);
+    joint.equations.push_back(driven(*this, ends, course));
   }
   return joint;
 }

@@ -90,11 +90,39 @@ const Spec<JointDrive>& JointDrive::spec() {
 
 namespace {
 
+void refuse_keys_of_other_types(const JointInput& joint, const Config& config) {
+  for (const char* key : {"spring", "stop", "friction", "load"})
+    if (config.has(key) && !joint.may_have_forces())
+      config.at(key).fail(
+          joint.type == JointType::distance
+              ? "has no effect on a distance that the joint holds; use type: strut, which leaves it free"
+              : "is for joints of type hinge, slot, cylindrical, slider and strut");
+  if (config.has("motor") && !joint.may_have_motor())
+    config.at("motor").fail(joint.type == JointType::strut
+                                ? "prescribes the distance, which a strut leaves free; use type: distance"
+                                : "is for joints of type hinge, slot, cylindrical, slider and distance");
+  if (config.has("along") && joint.type != JointType::cylindrical)
+    config.at("along").fail("is for joints of type cylindrical, which slide and turn; remove it");
+  if (joint.type == JointType::strut && !joint.has_forces())
+    config.fail("a strut holds nothing: give a spring, stop, friction or load; a massless rod is type: distance");
+}
+
+// Refuses values of a changed distance that no two points have.
+void check_distances(const JointInput& joint, const Config& config) {
+  if (joint.type != JointType::strut) return;
+  const double length = (*joint.to - *joint.from).norm();
+  const auto require_above = [&](const char* section, const char* key, double change) {
+    if (change <= -length)
+      config.at(section).at(key).fail(
+          fmt::format("must be above {:.4g} m: it is the change of the distance of `from` and `to`, {:.4g} m at rest",
+                      -length, length));
+  };
+  if (joint.stop && joint.stop->low) require_above("stop", "low", *joint.stop->low);
+}
+
 void check_drive(const JointInput& joint, const Config& config) {
   const std::string unit = joint.turns() ? "rad" : "m";
-  for (const char* key : {"spring", "stop", "friction", "load", "motor"})
-    if (config.has(key) && !joint.turns() && !joint.slides())
-      config.at(key).fail("is for joints of type hinge, slot, cylindrical and slider");
+  refuse_keys_of_other_types(joint, config);
   const auto require = [&](const char* section, const char* key, const QuantityValue& value) {
     if (config.at(section).has(key)) value.require(unit, {config.at(section).at(key).where()});
   };
@@ -105,8 +133,8 @@ void check_drive(const JointInput& joint, const Config& config) {
     const auto require_half_turn = [&](const char* section, const char* key, double angle) {
       if (std::abs(angle) >= kHalfTurn)
         config.at(section).at(key).fail(
-            fmt::format("springs and stops of hinges see angles between -180 and 180 deg, found {:.4g} rad; give "
-                        "degrees as '90 deg'",
+            fmt::format("springs and stops see angles between -180 and 180 deg, found {:.4g} rad; give degrees as "
+                        "'90 deg'",
                         angle));
     };
     if (joint.spring) require_half_turn("spring", "rest", joint.spring->rest);
@@ -133,10 +161,11 @@ void check_joint(const JointInput& joint, const Config& config) {
   if (!at_point && joint.at) config.at("at").fail("is for ball and fixed joints; give `from` and `to`");
   if (!at_point && (!joint.from || !joint.to))
     config.fail(joint.type == JointType::hinge ? "a hinge needs `from` and `to`, the ends of its pin"
-                : joint.type == JointType::distance
-                    ? "a distance needs `from`, on the first body, and `to`, on the second"
+                : joint.stretches()
+                    ? "a distance or strut needs `from`, on the first body, and `to`, on the second"
                     : "needs `from` and `to`, two points of the line along which the first body slides");
   if (!at_point && (*joint.from - *joint.to).norm() == 0) config.at("to").fail("is the same point as `from`");
+  check_distances(joint, config);
 }
 
 }  // namespace
@@ -150,21 +179,28 @@ const Spec<JointInput>& JointInput::spec() {
                "two points, the ends of a pin; distance: a massless rod; slot: the "
                "point `from` of the first body stays on the line of the second one through `from` and `to`; "
                "cylindrical: "
-               "both points of the first body stay on this line; slider: they do, and the bodies do not turn about it.",
+               "both points of the first body stay on this line; slider: they do, and the bodies do not turn about it; "
+               "strut: holds nothing, forces act along the line from `from` on the first body to `to` on the second.",
                {.required = true})
           .key("name", &J::name, "Name of the outputs, such as joint.NAME.", {.required = true})
           .key("at", &J::at, "The point of a ball or fixed joint.", {.unit = "m"})
           .key("from", &J::from,
-               "First end of the pin of a hinge, of the rod, on the first body, or of the line of a slot or slider.",
+               "First end of the pin of a hinge, of the rod or strut, on the first body, or of the line of a slot or "
+               "slider.",
                {.unit = "m"})
-          .key("to", &J::to, "Second end of the pin of a hinge, of the rod, on the second body, or of the line.",
+          .key("to", &J::to,
+               "Second end of the pin of a hinge, of the rod or strut, on the second body, or of the line.",
                {.unit = "m"})
           .key("first", &J::first, "Nodes of the first body that hold the joint.", {.required = true})
           .key("second", &J::second, "Nodes of the second body that hold the joint; default: a point fixed in space.")
+          .key("along", &J::along,
+               "Of a cylindrical joint: whether forces and motors act along the line (slide) or about it (turn); "
+               "default slide.")
           .key(
               "spring", &J::spring,
               "Spring and damping along the coordinate of the joint: the distance of the first body along the line, or "
-              "its angle about it by the right-hand rule, from the rest shape.")
+              "its angle about it by the right-hand rule, from the rest shape; of a strut, the change of the distance "
+              "of its points.")
           .key("stop", &J::stop, "Limits of the coordinate.")
           .key("friction", &J::friction, "Friction against changes of the coordinate.")
           .key("load", &J::load, "Force or torque along the coordinate, on the first body.")

@@ -1,4 +1,5 @@
-// The section `joints`: connections of bodies by points that coincide or keep their distance (lib/fem/joints.h).
+// The section `joints`: connections of bodies by points that coincide or keep their distance (lib/fem/joints.h), or
+// between which forces act.
 #pragma once
 
 #include <array>
@@ -20,18 +21,28 @@ namespace orthodyn {
 // ball: one point of both bodies. fixed: a point, and neither body turns against the other one. hinge: two points, so
 // that both bodies turn about the line through them. distance: a massless rod between a point of each body. slot: a
 // point of the first body stays on a line of the second one. cylindrical: two points stay on the line. slider: they do,
-// and the first body does not turn about it.
-enum class JointType { ball, hinge, distance, slot, cylindrical, slider, fixed };
+// and the first body does not turn about it. strut: holds nothing; forces act between a point of each body.
+enum class JointType { ball, hinge, distance, slot, cylindrical, slider, fixed, strut };
 
 template <>
 struct EnumNames<JointType> {
-  static constexpr std::array<std::pair<JointType, const char*>, 7> list{{{JointType::ball, "ball"},
+  static constexpr std::array<std::pair<JointType, const char*>, 8> list{{{JointType::ball, "ball"},
                                                                           {JointType::hinge, "hinge"},
                                                                           {JointType::distance, "distance"},
                                                                           {JointType::slot, "slot"},
                                                                           {JointType::cylindrical, "cylindrical"},
                                                                           {JointType::slider, "slider"},
-                                                                          {JointType::fixed, "fixed"}}};
+                                                                          {JointType::fixed, "fixed"},
+                                                                          {JointType::strut, "strut"}}};
+};
+
+// The coordinate of a cylindrical joint along which forces and motors act.
+enum class JointFreedom { slide, turn };
+
+template <>
+struct EnumNames<JointFreedom> {
+  static constexpr std::array<std::pair<JointFreedom, const char*>, 2> list{
+      {{JointFreedom::slide, "slide"}, {JointFreedom::turn, "turn"}}};
 };
 
 // The nodes of a body that a joint holds.
@@ -72,9 +83,10 @@ struct JointInput {
   JointType type = JointType::ball;
   std::string name;
   std::optional<Vec3> at;        // m, of a ball or fixed joint
-  std::optional<Vec3> from, to;  // m, ends of a hinge's pin, of a rod, or two points of a line
+  std::optional<Vec3> from, to;  // m, ends of a hinge's pin, of a rod or strut, or two points of a line
   JointEnd first;
-  std::optional<JointEnd> second;  // empty: a point in space
+  std::optional<JointEnd> second;     // empty: a point in space
+  std::optional<JointFreedom> along;  // of a cylindrical joint; empty: slide
   std::optional<JointSpring> spring;
   std::optional<JointStop> stop;
   std::optional<JointFriction> friction;
@@ -84,8 +96,16 @@ struct JointInput {
   static const Spec<JointInput>& spec();
 
   bool is_at_a_point() const { return type == JointType::ball || type == JointType::fixed; }
-  bool turns() const { return type == JointType::hinge; }
-  bool slides() const { return type == JointType::slot || type == JointType::cylindrical || type == JointType::slider; }
+  // Whether the coordinate is an angle, a distance along a line, or the change of a distance of two points.
+  bool turns() const {
+    return type == JointType::hinge || (type == JointType::cylindrical && along == JointFreedom::turn);
+  }
+  bool slides() const {
+    return type == JointType::slot || type == JointType::slider || (type == JointType::cylindrical && !turns());
+  }
+  bool stretches() const { return type == JointType::distance || type == JointType::strut; }
+  bool may_have_forces() const { return turns() || slides() || type == JointType::strut; }
+  bool may_have_motor() const { return turns() || slides() || type == JointType::distance; }
   JointLaw law() const;
   // Whether a spring, stop, friction or load acts along the coordinate. A motor is a constraint and does not count.
   bool has_forces() const { return load || law().acts(); }

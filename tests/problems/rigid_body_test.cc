@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "lib/ode/constraints.h"
 #include "lib/simulation/output/balance.h"
@@ -251,6 +252,163 @@ time: {end: 1}
   EXPECT_LE(std::abs(motion.drift), 1e-3 * 20);
 }
 
+// A motor turns the box about a line along which the box slides freely: torque = J th'', and the slide is v t.
+TEST_P(Motors, TurnABoxThatSlides) {
+  const BuiltTestScene s(box(R"(
+joints:
+  - type: cylindrical
+    along: turn
+    name: rail
+    from: [0, 0, 0]
+    to: [0, 1, 0]
+    first: {region: body}
+    motor: {to: 200 deg, factor: {type: expression, formula: '0.5*(1 - cos(pi*t))'}}
+initial: {velocity: [0, 0.7, 0]}
+time: {end: 0.8}
+)",
+                             1e-7, GetParam()));
+  const Motion motion = motion_of(s);
+  const double A = 200 * kPi / 180 / 2, angle = A * (1 - std::cos(0.8 * kPi));
+  const double torque = kInertia[1] * A * kPi * kPi * std::cos(0.8 * kPi);
+  const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+  const NodalVector x = s.positions(motion.last.q);
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    EXPECT_LE((x.col(i) - R * s.model().parts().rest->col(i) - Vec3(0, 0.56, 0)).norm(), 1e-5);
+  const auto value = [&](const char* name) { return s.model().evaluate(name, motion.last)[0]; };
+  EXPECT_NEAR(value("motor.rail"), torque, 1e-3 * std::abs(torque));
+  EXPECT_NEAR(value("coordinate.rail"), std::remainder(angle, 2 * kPi), 1e-5);
+  EXPECT_NEAR(value("angle.rail"), value("coordinate.rail"), 1e-14);
+  EXPECT_NEAR(value("slide.rail"), 0.56, 1e-5);
+  EXPECT_LE(std::abs(motion.drift), 1e-4 * std::abs(torque));
+}
+
+// The mean of the nodes of a region, which is the centre of a box.
+Vec3 centre_of(const BuiltTestScene& s, const Vector& q, int region) {
+  const NodalVector x = s.positions(q);
+  std::set<int> nodes;
+  for (std::size_t k = 0; k < s.mesh().cells.size(); ++k)
+    if (s.mesh().region_of[k] == region) nodes.insert(s.mesh().cells[k].begin(), s.mesh().cells[k].end());
+  Vec3 sum = Vec3::Zero();
+  for (const int node : nodes) sum += x.col(node);
+  return sum / static_cast<double>(nodes.size());
+}
+
+// Two free boxes of 40 and 24 kg, whose centres are 2.3 m apart along x.
+std::string two_boxes(const std::string& joint, double end, double rtol, const char* method) {
+  return fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    a: {{mesh: {{type: box, size: [1, 0.4, 0.2], cells: [1, 1, 1], elements: hexahedra, order: 1, origin: [-0.5, -0.2, -0.1]}}}}
+    b: {{mesh: {{type: box, size: [0.6, 0.4, 0.2], cells: [1, 1, 1], elements: hexahedra, order: 1, origin: [2, -0.2, -0.1]}}}}
+materials: {{m: {{type: isotropic, density: 500, young: 1e4, nu: 0.3}}}}
+regions: {{all: {{material: m, rigid: true}}}}
+joints: [{{name: leg, from: [2.3, 0, 0], to: [0, 0, 0], first: {{region: b}}, second: {{region: a}}, {}}}]
+time: {{end: {}}}
+integrator: {{type: {}, rtol: {}}}
+)",
+                     joint, end, method, rtol);
+}
+constexpr double kReduced = 40.0 * 24 / 64;  // kg
+
+// A motor changes the distance of the boxes by m(t): their centres move by -24/64 m and 40/64 m, and the force is the
+// reduced mass times m''.
+TEST_P(Motors, DriveFreeBoxesApart) {
+  const BuiltTestScene s(
+      two_boxes("type: distance, motor: {to: 0.5, factor: {type: expression, formula: '0.5*(1 - cos(pi*t))'}}", 0.8,
+                1e-7, GetParam()));
+  const Motion motion = motion_of(s);
+  const double change = 0.25 * (1 - std::cos(0.8 * kPi)), force = kReduced * 0.25 * kPi * kPi * std::cos(0.8 * kPi);
+  EXPECT_LE((centre_of(s, motion.last.q, 0) - Vec3(-change * 24 / 64, 0, 0)).norm(), 1e-5);
+  EXPECT_LE((centre_of(s, motion.last.q, 1) - Vec3(2.3 + change * 40 / 64, 0, 0)).norm(), 1e-5);
+  EXPECT_NEAR(s.model().evaluate("coordinate.leg", motion.last)[0], change, 1e-5);
+  EXPECT_NEAR(s.model().evaluate("motor.leg", motion.last)[0], force, 1e-3 * std::abs(force));
+  const auto joint = s.model().evaluate("joint.leg", motion.last);
+  EXPECT_LE((Vec3(joint[0], joint[1], joint[2]) - Vec3(force, 0, 0)).norm(), 1e-3 * std::abs(force));
+  EXPECT_LE(std::abs(motion.drift), 2e-3);
+}
+
+// A motor shortens the rod on which the box turns about a point, without gravity: r^2 th' is constant, and the force of
+// the motor is m (r'' - r th'^2).
+TEST_P(Motors, ShortenAPendulum) {
+  const BuiltTestScene s(box(R"(
+joints:
+  - type: distance
+    name: rod
+    from: [0, 0, 0]
+    to: [0, 0, -1]
+    first: {region: body}
+    motor: {to: -0.4, factor: {type: expression, formula: '0.5*(1 - cos(pi*t))'}}
+initial: {velocity: [2, 0, 0]}
+time: {end: 0.8}
+)",
+                             1e-7, GetParam()));
+  const Motion motion = motion_of(s);
+  const auto radius = [](double t) { return 1 - 0.2 * (1 - std::cos(kPi * t)); };
+  const int steps = 1000;  // Simpson's rule for th = int 2/r^2 dt
+  double angle = 0;
+  for (int k = 0; k <= steps; ++k)
+    angle += (k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2) * 2 / std::pow(radius(0.8 * k / steps), 2);
+  angle *= 0.8 / steps / 3;
+  const double r = radius(0.8), r_second = -0.2 * kPi * kPi * std::cos(0.8 * kPi);
+  const Vec3 exact(r * std::sin(angle), 0, r * std::cos(angle) - 1);
+  EXPECT_LE((centre_of(s, motion.last.q, 0) - exact).norm(), 1e-4);
+  const double force = 40 * (r_second - 4 / (r * r * r));
+  EXPECT_NEAR(s.model().evaluate("motor.rod", motion.last)[0], force, 1e-3 * std::abs(force));
+  EXPECT_LE(std::abs(motion.drift), 1e-3 * 80);  // the work of the motor is in the balance
+}
+
+// A damped spring between the free boxes: c(t) = v/w exp(-d t) sin(w t) with the reduced mass.
+TEST(Struts, SwingExactly) {
+  const double k = 25 * kReduced, c = 0.5 * kReduced, speed = 0.4;
+  double last = 1;
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(
+        two_boxes(fmt::format("type: strut, spring: {{stiffness: {}, damping: {}}}", k, c), 1.3, rtol, "ida_bdf") +
+        fmt::format("initial: {{velocity_field: ['x > 1 ? {} : 0', 0, 0]}}\n", speed));
+    const Motion motion = motion_of(s);
+    const double d = 0.25, w = std::sqrt(25 - d * d), exact = speed / w * std::exp(-1.3 * d) * std::sin(1.3 * w);
+    const double error = std::abs(s.model().evaluate("coordinate.leg", motion.last)[0] - exact);
+    EXPECT_LE(error, 300 * rtol * speed);
+    EXPECT_LE(error, 0.2 * last);
+    last = error;
+    const double momentum = 24 * speed;
+    EXPECT_NEAR(s.model().evaluate("momentum.linear", motion.last)[0], momentum, 300 * rtol * momentum);
+    EXPECT_LE(std::abs(motion.drift), 1e3 * rtol * kReduced * speed * speed);
+  }
+}
+
+// A spring of 320 N/m, stretched by 0.5 m, holds the box of 40 kg on a circle of 1 m at 2 m/s.
+TEST(Struts, HoldACircularOrbit) {
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(box(R"(
+joints: [{type: strut, name: leg, from: [0, 0, 0], to: [0, 0, -1], first: {region: body}, spring: {stiffness: 320, rest: -0.5}}]
+initial: {velocity: [2, 0, 0]}
+time: {end: 1}
+)",
+                               rtol));
+    const Motion motion = motion_of(s);
+    EXPECT_LE((centre_of(s, motion.last.q, 0) - Vec3(std::sin(2.0), 0, std::cos(2.0) - 1)).norm(), 1e3 * rtol);
+    EXPECT_LE(std::abs(s.model().evaluate("coordinate.leg", motion.last)[0]), 1e3 * rtol);
+  }
+}
+
+// A cable that is slack up to 0.1 m: the boxes part with 0.4 m/s, the stop stretches by v sqrt(m/k) and throws them
+// back without loss.
+TEST(Struts, WithAStopAreCables) {
+  double longest = 0;
+  const BuiltTestScene s(
+      two_boxes(fmt::format("type: strut, stop: {{high: 0.1, stiffness: {}, onset: 1e-5}}", 2500 * kReduced), 0.5, 1e-7,
+                "ida_bdf") +
+      "initial: {velocity_field: ['x > 1 ? 0.4 : 0', 0, 0]}\n");
+  const auto coordinate = [&](const State& state) { return s.model().evaluate("coordinate.leg", state)[0]; };
+  const Motion motion = motion_of(s, [&](const State& state) { longest = std::max(longest, coordinate(state)); });
+  const double depth = 0.4 / 50;
+  EXPECT_NEAR(longest, 0.1 + depth, 0.02 * depth);
+  EXPECT_LT(coordinate(motion.last), 0.1 - depth);
+  EXPECT_LE(std::abs(motion.drift), 2e-4 * kReduced * 0.08);
+}
+
 // A motor turns the crank of a slider-crank: the slider is at r cos(th) + sqrt(l^2 - r^2 sin^2(th)).
 TEST(Mechanisms, OfSliderAndCrankMoveExactly) {
   const BuiltTestScene s(R"(
@@ -286,7 +444,7 @@ integrator: {type: ida_bdf, rtol: 1e-6}
   EXPECT_LE(worst, 1e-5);
 }
 
-// The box moves with 2 m/s along a slider, or turns with 2 rad/s about a hinge.
+// The box moves with 2 m/s along a line, or turns with 2 rad/s about it.
 struct Freedom {
   const char *type, *start;
   double inertia;  // kg, or kg m^2
@@ -306,7 +464,9 @@ class ForcesOfJoints : public testing::TestWithParam<Freedom> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Types, ForcesOfJoints,
-                         testing::Values(Freedom{"slider", "velocity", 40}, Freedom{"hinge", "spin", kInertia[1]}));
+                         testing::Values(Freedom{"slider", "velocity", 40}, Freedom{"hinge", "spin", kInertia[1]},
+                                         Freedom{"cylindrical", "velocity", 40},
+                                         Freedom{"cylindrical, along: turn", "spin", kInertia[1]}));
 
 // The box hits a stop at 0.5 m or rad: it turns back at the depth v sqrt(m/k) (beyond the onset), and loses no energy.
 TEST_P(ForcesOfJoints, StopsThrowBackWithoutLoss) {
@@ -374,7 +534,8 @@ integrator: {type: ida_bdf, rtol: 1e-6}
 // A torque T cos(t) turns the box by T/J (1 - cos t) about its middle, a force F cos(t) moves it by F/m (1 - cos t).
 class LoadsOfJoints : public testing::TestWithParam<std::pair<const char*, double>> {};
 INSTANTIATE_TEST_SUITE_P(Types, LoadsOfJoints,
-                         testing::Values(std::pair("hinge", kInertia[1]), std::pair("slider", 40.0)));
+                         testing::Values(std::pair("hinge", kInertia[1]), std::pair("slider", 40.0),
+                                         std::pair("cylindrical, along: turn", kInertia[1])));
 
 TEST_P(LoadsOfJoints, MoveExactly) {
   const auto& [type, inertia] = GetParam();

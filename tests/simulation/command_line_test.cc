@@ -304,8 +304,17 @@ TEST_F(CommandLine, ListsJointsAndTheirQuantities) {
   EXPECT_FALSE(has(hinge, "at")) << hinge;
   EXPECT_TRUE(has(hinge, "from")) << hinge;
   EXPECT_TRUE(has(hinge, "motor")) << hinge;
+  EXPECT_FALSE(has(hinge, "along")) << hinge;
+  const std::string distance = part("distance", "slot"), cylindrical = part("cylindrical", "slider");
+  EXPECT_TRUE(has(distance, "motor")) << distance;
+  EXPECT_FALSE(has(distance, "spring")) << distance;
+  EXPECT_TRUE(has(cylindrical, "along")) << cylindrical;
+  const std::string strut = part("strut", "joints.<n>.first");
+  EXPECT_TRUE(has(strut, "spring")) << joints;
+  EXPECT_FALSE(has(strut, "motor")) << strut;
   const std::string quantities = orthodyn("list quantities").output;
-  for (const char* name : {"joint.JOINT", "coordinate.JOINT", "motor.JOINT", "joints.gap", "joints.rate", "tie.TIE"})
+  for (const char* name : {"joint.JOINT", "coordinate.JOINT", "slide.JOINT, angle.JOINT", "motor.JOINT", "joints.gap",
+                           "joints.rate", "tie.TIE"})
     EXPECT_NE(quantities.find(name), std::string::npos) << name;
 }
 

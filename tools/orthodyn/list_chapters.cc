@@ -108,12 +108,15 @@ const char* sentence_of(JointType type) {
     case JointType::hinge:
       return "Holds the points `from` and `to` of both bodies together: they turn about the line through them.";
     case JointType::distance:
-      return "Keeps the distance of `from` on the first body and `to` on the second one: a massless rod.";
+      return "Keeps the distance of `from` on the first body and `to` on the second one, a massless rod, or prescribes "
+             "it by a motor.";
     case JointType::slot:
       return "Holds the point `from` of the first body on the line of the second one through `from` and `to`.";
     case JointType::cylindrical:
       return "Holds the points `from` and `to` of the first body on this line of the second one: it slides and turns.";
     case JointType::slider: return "As cylindrical, without turning about the line.";
+    case JointType::strut:
+      return "Holds nothing: forces act along the line between `from` on the first body and `to` on the second one.";
   }
   return "";
 }
@@ -130,7 +133,9 @@ std::vector<Key> keys_of(JointType type) {
     if (is_any_of({"type"}) || is_any_of(joint.is_at_a_point() ? std::initializer_list<const char*>{"from", "to"}
                                                                : std::initializer_list<const char*>{"at"}))
       continue;
-    if (is_any_of({"spring", "stop", "friction", "load", "motor"}) && !joint.turns() && !joint.slides()) continue;
+    if (is_any_of({"spring", "stop", "friction", "load"}) && !joint.may_have_forces()) continue;
+    if (is_any_of({"motor"}) && !joint.may_have_motor()) continue;
+    if (is_any_of({"along"}) && type != JointType::cylindrical) continue;
     key.required = key.required || is_any_of({"at", "from", "to"});
     out.push_back(key);
   }
@@ -242,8 +247,14 @@ void list_quantities() {
   fmt::print("                         Both need output.reactions: true, unless `expect` names them.\n");
   fmt::print("  joint.JOINT            Force of a joint on its first body, by its name (3 components, N).\n");
   fmt::print(
-      "  coordinate.JOINT       Distance (m) along the line of a slot, cylindrical or slider joint, or angle (rad) of "
-      "a hinge with all turns (1 component).\n");
+      "  coordinate.JOINT       Distance (m) along the line or angle (rad) about it, along which forces and the motor "
+      "of "
+      "a joint act, or change of the distance (m) of the points of a strut or a driven distance (1 component).\n");
+  fmt::print(
+      "  slide.JOINT, angle.JOINT\n"
+      "                         Distance (m) along the line of a cylindrical joint, and angle (rad) about it (1 "
+      "component).\n");
+  fmt::print("                         Angles count all turns since the start.\n");
   fmt::print(
       "  motor.JOINT            Force (N) or torque (N m) of a joint's motor on its first body (1 component).\n");
   fmt::print("  joints.gap             Largest distance of joined points, and change of rods (1 component, m).\n");

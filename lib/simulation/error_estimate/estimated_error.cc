@@ -119,7 +119,7 @@ std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model
 }  // namespace
 
 bool allows_finer_elements(const FemModel& model) {
-  return !model.ranks() && !model.constraints() && model.pattern().symmetric &&
+  return !model.ranks() && model.parts().joints.empty() && model.pattern().symmetric &&
          FinerModel::estimated_unknowns(model) <= kMaxFinerUnknowns;
 }
 

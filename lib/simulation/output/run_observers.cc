@@ -15,8 +15,10 @@ std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
     for (const char* what : {"reaction.", "torque."}) names.push_back(what + support.name);
   for (const Joint& joint : parts.joints) {
     if (joint.of == Joint::Of::rigid_body) continue;
-    names.push_back("joint." + joint.name);
+    if (joint.holds()) names.push_back("joint." + joint.name);
     if (joint.coordinate) names.push_back("coordinate." + joint.name);
+    if (joint.slide && joint.coordinate->is_angle()) names.push_back("slide." + joint.name);
+    if (joint.angle && !joint.coordinate->is_angle()) names.push_back("angle." + joint.name);
     if (joint.motor()) names.push_back("motor." + joint.name);
   }
   for (const NamedTie& tie : parts.ties) names.push_back("tie." + tie.name);
