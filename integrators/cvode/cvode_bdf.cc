@@ -34,7 +34,8 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
     return make_cvode(method, model, *this, sizes, task.sensitivities);
   }
   AdjointSolution integrate_adjoint(const Model& model, const Task& task, AdjointEquations& equations) const override {
-    if (model.constraints()) throw ConfigError("derivatives of motions are not available with joints");
+    if (model.constraints())
+      throw ConfigError("derivatives of motions are not available with joints or free rigid bodies; remove them");
     const Scales sizes = scales(task);
     const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
     return integrate_cvode_adjoint({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task, equations);

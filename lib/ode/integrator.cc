@@ -12,7 +12,8 @@ std::unique_ptr<Integrator> IntegratorChoice::make(const Model& model, const Tas
           "use ida_bdf, "
           "cvode_bdf, generalized_alpha, hht_alpha, newmark, central_differences or auto");
     if (task.sensitivities)
-      throw ConfigError("sensitivities of motions are not available with joints; remove one of them");
+      throw ConfigError(
+          "sensitivities of motions are not available with joints or free rigid bodies; remove one of them");
   }
   if (!model.internal_variables()) return make_for(model, task);
   if (task.sensitivities)

@@ -38,7 +38,8 @@ void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Part
     if (parts.subdomain) {
       parts.load_descriptions.push_back(made->description());
       auto part = made->part(*parts.subdomain);
-      if (!part) throw ConfigError("terms", fmt::format("'{}' does not run on several ranks", made->name()));
+      if (!part)
+        throw ConfigError("terms", fmt::format("'{}' does not run on several ranks; run on one", made->name()));
       made = std::move(part);
     }
     if (const Contact* contact = made->contact()) add_contact(*contact, parts);

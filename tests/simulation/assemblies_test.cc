@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/sensitivity/motion_sensitivity.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/resume_fixture.h"
+#include "tests/simulation/several_ranks.h"
 
 namespace orthodyn::assemblies_test {
 namespace {
@@ -237,6 +239,160 @@ TEST(ContactChecks, TellOfOverlaps) {
   EXPECT_THAT(warnings_of(plain, "contact", 0.99), HasSubstr("contact of lower and upper: the bodies overlap"));
   EXPECT_THAT(warnings_of(plain, "barrier_contact", 1.05), Not(HasSubstr("far nearer")));
   EXPECT_THAT(warnings_of(plain, "barrier_contact, gap: 0.1", 1.005), HasSubstr("far nearer than the gap"));
+}
+
+// Two blocks, the lower one clamped, with this connection.
+std::string blocks(const std::string& connection, const std::string& more) {
+  return fmt::format(R"(
+mesh:
+  type: bodies
+  bodies:
+    lower: {{mesh: {{type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}}}}
+    upper: {{mesh: {{type: box, size: [1, 1, 1], cells: [1, 1, 1], elements: hexahedra, order: 1}}, translation: [0, 0, 1]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}
+clamps: [{{surface: lower.z0}}]
+gravity: [0, 0, -10]
+{}
+{}
+)",
+                     connection, more);
+}
+const std::string kBall =
+    "joints: [{type: ball, name: pin, at: [0.5, 0.5, 1], first: {surface: upper.z0}, second: {surface: lower.z1}}]";
+const std::string kStrut =
+    "joints: [{type: strut, name: leg, from: [1, 1, 2], to: [0, 0, 0], spring: {stiffness: 1e5}, first: {nearest: [1, "
+    "1, 2]}}]";
+const std::string kRigid = "regions: {lower: {material: m}, upper: {material: m, rigid: true}}";
+const std::string kTouch = "terms: [{type: contact, between: [lower.z1, upper.z0], stiffness: 1e7}]";
+const std::string kTie = "ties: [{first: upper.z0, second: lower.z1}]";
+const std::string kMoving = "time: {end: 0.01}\n";
+const std::string kByBdf = kMoving + "integrator: {type: cvode_bdf, rtol: 1e-3}\n";
+const std::string kDerivative =
+    kByBdf + "sensitivities: [materials.m.young]\noutput: {probes: {top: {at: [1, 1, 2]}}}\n";
+const std::string kProbe = kByBdf + "output: {probes: {top: {at: [1, 1, 2]}}}\n";
+const char* const kRun = "run scene.yaml --out out";
+const char* const kGradient = "gradient scene.yaml --of top.displacement.z --by materials.m.young --out out";
+
+// What an analysis cannot do is told, with what to do.
+struct Refusal {
+  const char* name;
+  std::string connection, more, command, says, advice;
+};
+std::ostream& operator<<(std::ostream& out, const Refusal& refusal) { return out << refusal.name; }
+
+class Refused : public InFolder, public testing::WithParamInterface<Refusal> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Assemblies, Refused,
+    testing::Values(
+        Refusal{"StaticsOfJoints", kBall, "analysis: static", kRun, "joints: applies only with analysis: dynamic",
+                "remove it"},
+        Refusal{"BucklingOfJoints", kBall, "analysis: buckling", kRun, "joints: applies only with analysis: dynamic",
+                "remove it"},
+        Refusal{"ResponsesOfJoints", kBall, "analysis: harmonic\nharmonic: {from: 1, to: 2, damping_ratio: 0.01}", kRun,
+                "joints: applies only with analysis: dynamic", "remove it"},
+        Refusal{"StaticsOfStruts", kStrut, "analysis: static", kRun, "joints: applies only with analysis: dynamic",
+                "remove it"},
+        Refusal{"StaticsOfFreeRigidBodies", kRigid, "analysis: static", kRun,
+                "free rigid bodies need analysis: dynamic", "clamp it"},
+        Refusal{"BucklingOfFreeRigidBodies", kRigid, "analysis: buckling", kRun,
+                "free rigid bodies need analysis: dynamic", "clamp it"},
+        Refusal{"EquilibriaOfJoints", kBall, kMoving + "start: equilibrium", kRun,
+                "joints are not available with start: equilibrium", "start at rest"},
+        Refusal{"EquilibriaOfFreeRigidBodies", kRigid, kMoving + "start: equilibrium", kRun,
+                "free rigid bodies need analysis: dynamic and start: rest", "clamp it"},
+        Refusal{"ModesOfJoints", kBall, kMoving, "modes scene.yaml --out out",
+                "natural modes are not available with joints", "replace joints by springs"},
+        Refusal{"ModesOfFreeRigidBodies", kRigid, kMoving, "modes scene.yaml --out out",
+                "not available with joints and free rigid regions", "remove `rigid`"},
+        Refusal{"SensitivitiesOfJoints", kBall, kDerivative, kRun,
+                "sensitivities: are not computed for motions with joints", "compute differences between runs"},
+        Refusal{"SensitivitiesOfFreeRigidBodies", kRigid, kDerivative, kRun, "joints or free rigid bodies",
+                "compute differences between runs"},
+        Refusal{"SensitivitiesOfContact", kTouch, kDerivative, kRun, "are not computed with contact",
+                "has no derivative"},
+        Refusal{"GradientsOfJoints", kBall, kProbe, kGradient, "adjoint equations are not available with joints",
+                "compute differences between runs"},
+        Refusal{"GradientsOfFreeRigidBodies", kRigid, kProbe, kGradient, "joints or free rigid bodies",
+                "compute differences between runs"},
+        Refusal{"GradientsOfContact", kTouch, kProbe, kGradient, "the scene has contact",
+                "compute differences between runs"},
+        Refusal{"EnergyMomentumOfJoints", kBall, kMoving + "integrator: {type: energy_momentum, step: 1e-3}", kRun,
+                "not available with joints", "use ida_bdf"},
+        Refusal{"EnergyMomentumOfStruts", kStrut, kMoving + "integrator: {type: energy_momentum, step: 1e-3}", kRun,
+                "forces of joints have no mean force", "choose another integrator"},
+        Refusal{"EnergyMomentumOfContact", kTouch, kMoving + "integrator: {type: energy_momentum, step: 1e-3}", kRun,
+                "Contact of bodies", "choose another integrator"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(Refused, ByNameWithWhatToDo) {
+  write("scene.yaml", blocks(GetParam().connection, GetParam().more));
+  const auto result = orthodyn(GetParam().command);
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr(GetParam().says));
+  EXPECT_THAT(result.output, HasSubstr(GetParam().advice));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "run.json"));
+}
+
+class AssembliesOnSeveralRanks : public SeveralRanks, public testing::WithParamInterface<Refusal> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Refused, AssembliesOnSeveralRanks,
+    testing::Values(Refusal{"Joints", kBall, "", "", "joints are not available on several ranks", "run on one"},
+                    Refusal{"Struts", kStrut, "", "", "joints are not available on several ranks", "run on one"},
+                    Refusal{"RigidBodies", kRigid, "", "", "rigid regions are not available on several ranks",
+                            "run on one"},
+                    Refusal{"Ties", kTie, "", "", "ties are not available on several ranks", "run on one"},
+                    Refusal{"Contact", kTouch, "", "", "does not run on several ranks", "run on one"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(AssembliesOnSeveralRanks, AreRefusedByName) {
+  write("scene.yaml",
+        blocks(GetParam().connection,
+               kMoving + "integrator: {type: generalized_alpha, step: 1e-3}\noutput: {mesh_error: false}"));
+  const auto result = orthodyn_on(2, "run scene.yaml --out out");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr(GetParam().says));
+  EXPECT_THAT(result.output, HasSubstr(GetParam().advice));
+}
+
+// Fits then take differences between runs.
+TEST(MotionSensitivities, AreNotPromisedForConstraints) {
+  const auto has = [](const std::string& connection) {
+    const Config config = Config::from_text(blocks(connection, kByBdf), "scene.yaml").resolving();
+    return has_motion_sensitivity(config, read_scene(config), {"materials.m.young"});
+  };
+  EXPECT_TRUE(has(kTie));
+  EXPECT_TRUE(has(kStrut));
+  EXPECT_FALSE(has(kBall));
+  EXPECT_FALSE(has(kRigid));
+  EXPECT_FALSE(has(kTouch));
+}
+
+// A strut with a spring is a spring between two points: frequencies and derivatives of motions are those of the term
+// `spring`.
+TEST_F(Resume, AStrutVibratesAsASpring) {
+  const std::string spring = "terms: [{type: spring, nearest: [1, 1, 2], anchor: [0, 0, 0], stiffness: 1e5}]";
+  for (const auto& [name, connection] : {std::pair("strut", kStrut), std::pair("spring", spring)}) {
+    write("modes.yaml", blocks(connection + "\n" + kTie, kByBdf));
+    write("run.yaml", blocks(connection + "\n" + kTie, kDerivative));
+    const auto modes = orthodyn(std::string("modes modes.yaml -n 5 --quiet --out modes_") + name);
+    ASSERT_EQ(modes.exit_code, 0) << modes.output;
+    const auto run = orthodyn(std::string("run run.yaml --quiet --out run_") + name);
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+  }
+  const auto strut = read_rows(folder_ / "modes_strut/modes.csv"),
+             springs = read_rows(folder_ / "modes_spring/modes.csv");
+  ASSERT_EQ(strut.size(), springs.size());
+  for (std::size_t row = 0; row < strut.size(); ++row)  // Hz
+    EXPECT_NEAR(strut[row].at(1), springs[row].at(1), 1e-6 * springs[row].at(1));
+  const auto slopes = read_rows(folder_ / "run_strut/sensitivities.csv").back(),
+             expected = read_rows(folder_ / "run_spring/sensitivities.csv").back();
+  ASSERT_EQ(slopes.size(), expected.size());
+  double largest = 0;
+  for (std::size_t c = 1; c < 4; ++c) largest = std::max(largest, std::abs(expected[c]));  // top.displacement, m/Pa
+  EXPECT_GT(largest, 0);
+  for (std::size_t c = 1; c < 4; ++c) EXPECT_NEAR(slopes[c], expected[c], 0.02 * largest);
 }
 
 }  // namespace

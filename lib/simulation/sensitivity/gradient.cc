@@ -108,9 +108,11 @@ void require_adjoint(const Setup& setup) {
   const Traits& traits = setup.built.model->traits();
   const Scene& scene = setup.scene;
   const auto fail = [](const std::string& reason) { throw ConfigError("gradient", reason); };
+  if (setup.built.model->constraints())
+    fail("adjoint equations are not available with joints or free rigid bodies: compute differences between runs");
   if (!scene.is_static() && setup.built.model->internal_variables())
     fail("adjoint equations of motions are not available with viscoelastic materials");
-  if (!traits.smooth) fail("the scene has contact, whose force has kinks");
+  if (!traits.smooth) fail("the scene has contact or stops, whose force has kinks: compute differences between runs");
   if (!traits.exact_stiffness || has_unsymmetric_load(scene, setup.built.model->parts().mesh))
     fail("the stiffness is unsymmetric (a load that follows the body, or corotation: warped): use sensitivities");
   if (!scene.is_static() && traits.damping_matrix && !traits.linear)

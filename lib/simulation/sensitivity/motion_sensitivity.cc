@@ -20,6 +20,13 @@ bool has_exact_tangent(const Scene& scene, const FemModel& model) {
   return traits.exact_stiffness && !turns && !has_unsymmetric_load(scene, model.parts().mesh);
 }
 
+bool may_have_constraints(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const JointInput& joint) { return joint.type != JointType::strut; }) ||
+         std::any_of(scene.regions.begin(), scene.regions.end(),
+                     [](const auto& region) { return region.second.rigid.is_rigid; });
+}
+
 // A kink in time that moves with the parameter would add a jump to the derivative.
 void require_fixed_breakpoints(const ChangedModels& changed, const FemModel& model, const Scene& scene,
                                const SceneParameter& parameter, const SourceLocation& origin) {
@@ -38,8 +45,10 @@ void require_fixed_breakpoints(const ChangedModels& changed, const FemModel& mod
 bool has_motion_sensitivity(const Config& config, const Scene& scene, const std::vector<std::string>& paths) {
   if (scene.is_static() || !scene.integrator->computes_sensitivities()) return false;
   if (!has_value_at(config, "integrator.type") || value_at(config, "integrator.type").text() == "auto") return false;
+  if (may_have_constraints(scene)) return false;
   Traits traits;
   for (const TermChoice* term : scene.force_terms()) term->declare(traits);
+  for (const JointInput& joint : scene.joints) joint.declare(traits);
   return traits.smooth && std::none_of(paths.begin(), paths.end(), [](const std::string& path) {
            return path.find(".factor.") != std::string::npos || path.find(".kinks.") != std::string::npos;
          });
@@ -51,8 +60,12 @@ MotionSensitivity::MotionSensitivity(const Config& config, const Scene& scene, c
       model_(*built.model),
       small_(small_displacement(model_)),
       has_tangent_(has_exact_tangent(scene, model_)) {
+  if (model_.constraints())
+    origin.fail(
+        "are not computed for motions with joints or free rigid bodies: remove them, or compute differences between "
+        "runs");
   if (!model_.traits().smooth)
-    origin.fail("are not computed with contact: the force has kinks, at which the motion has no derivative");
+    origin.fail("are not computed with contact or stops: the force has kinks, at which the motion has no derivative");
   for (const SceneParameter& one : model_parameters(config, paths, origin)) {
     parameters_.push_back(one);
     changed_.emplace_back(config, model_, one, ChangeCount::two, ChangedMotion::as_given);

@@ -18,16 +18,16 @@
 namespace orthodyn {
 
 // Whether the scene is a motion whose integrator, named in `config`, computes the derivatives with respect to these
-// parameters: without contact, and without numbers of factors in time and of kinks. False for `auto`, which would
-// choose another method than without sensitivities.
+// parameters: without contact, stops, joints that hold and rigid regions, and without numbers of factors in time and of
+// kinks. False for `auto`, which would choose another method than without sensitivities.
 bool has_motion_sensitivity(const Config& config, const Scene& scene, const std::vector<std::string>& paths);
 
 class MotionSensitivity final : public SensitivityEquations {
  public:
   // `config`: resolved input of `scene` and `built`, in which no kinematics are `auto`. The model must outlive this
-  // object. Throws ConfigError at `origin` for contact, for a parameter that changes the connections of the mesh or the
-  // times at which loads have kinks, and for one that is not part of the model. Throws RunError if the motion starts
-  // from an equilibrium whose stiffness is singular.
+  // object. Throws ConfigError at `origin` for contact and constraints, for a parameter that changes the connections of
+  // the mesh or the times at which loads have kinks, and for one that is not part of the model. Throws RunError if the
+  // motion starts from an equilibrium whose stiffness is singular.
   MotionSensitivity(const Config& config, const Scene& scene, const BuiltScene& built,
                     const std::vector<std::string>& paths, const SourceLocation& origin);
 
