@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "integrators/newton_matrix.h"
@@ -47,12 +48,14 @@ double damping_time_below(const Model& model, const State& start, double omega) 
 
 double frequency_of_motion(const Scales& scales) { return kScaleOfMotion * scales.velocity / scales.position; }
 
-double damping_ratio_of_motion(const Model& model, const State& start, const CriticalStep& critical,
+double damping_ratio_of_motion(const Model& model, const Task& task, const CriticalStep& critical,
                                const Scales& scales) {
   const double omega = frequency_of_motion(scales);
   double time = critical.damping_time();
-  if (!model.traits().linear && !model.space().is_zero(start.q))
-    time = std::min(time, damping_time_below(model, start, omega));
+  if (!model.traits().linear && !model.space().is_zero(task.initial.q)) {
+    const double of_run = 2 * std::numbers::pi / (task.end - task.initial.t);
+    time = std::min(time, damping_time_below(model, task.initial, std::max(omega, of_run)));
+  }
   return time * omega / 2;
 }
 

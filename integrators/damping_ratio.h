@@ -7,12 +7,12 @@
 
 namespace orthodyn {
 
-// Damping ratio beta omega / 2 of the motion from `start`, with beta = D/K and omega = frequency_of_motion(scales).
+// Damping ratio beta omega / 2 of the motion of a task, with beta = D/K and omega = frequency_of_motion(scales).
 // beta is critical.damping_time(), that of the fastest vibration, which is that of all if every region has damping D =
 // beta K. In a displaced body it is at most that of vibrations about as fast as the motion: tension across thin bodies
-// adds stiffness without damping. Precondition: `critical` has been evaluated at `start`. Throws the model's
-// RecoverableError. Collective.
-double damping_ratio_of_motion(const Model& model, const State& start, const CriticalStep& critical,
+// adds stiffness without damping. Precondition: `critical` has been evaluated at the start. Throws the
+// model's RecoverableError. Collective.
+double damping_ratio_of_motion(const Model& model, const Task& task, const CriticalStep& critical,
                                const Scales& scales);
 
 // Estimated angular frequency of the motion, rad/s.

@@ -66,7 +66,7 @@ CostEstimate estimate_here(const Model& model, const Task& task, const Scales& s
   try {
     CriticalStep critical(model, unused);
     cost.explicit_steps = span / critical.at(task.initial);
-    if (model.traits().damped) cost.damping_ratio = damping_ratio_of_motion(model, task.initial, critical, scales);
+    if (model.traits().damped) cost.damping_ratio = damping_ratio_of_motion(model, task, critical, scales);
   } catch (const RecoverableError&) {  // Integrator::start() reports the error
   }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);

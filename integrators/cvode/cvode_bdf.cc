@@ -28,7 +28,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
   bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
-    const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
+    const int order = bdf_order(max_order, model, task, rtol, sizes);
     const CvodeMethod method{
         .name = "cvode_bdf", .family = CV_BDF, .max_order = order, .simultaneous = is_simultaneous()};
     return make_cvode(method, model, *this, sizes, task.sensitivities);
@@ -37,7 +37,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>,
     if (model.constraints())
       throw ConfigError("derivatives of motions are not available with joints or free rigid bodies; remove them");
     const Scales sizes = scales(task);
-    const int order = bdf_order(max_order, model, task.initial, rtol, sizes);
+    const int order = bdf_order(max_order, model, task, rtol, sizes);
     return integrate_cvode_adjoint({"cvode_bdf", CV_BDF, order}, model, *this, sizes, task, equations);
   }
 

@@ -220,7 +220,7 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public Options, public
   bool solves_constraints() const override { return true; }
   std::unique_ptr<Integrator> make_for(const Model& model, const Task& task) const override {
     const Scales sizes = scales(task);
-    return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task.initial, rtol, sizes),
+    return std::make_unique<IdaBdf>(model, *this, sizes, bdf_order(max_order, model, task, rtol, sizes),
                                     task.sensitivities, is_simultaneous());
   }
 

@@ -5,7 +5,7 @@
 
 namespace orthodyn::sundials {
 
-int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
+int bdf_order(const std::optional<int>& given, const Model& model, const Task& task, double rtol,
               const Scales& scales) {
   if (given) return *given;
   if (model.traits().rigid && model.traits().smooth) return 5;
@@ -13,8 +13,8 @@ int bdf_order(const std::optional<int>& given, const Model& model, const State& 
   Statistics unused;
   CriticalStep critical(model, unused);
   try {
-    critical.at_present(start);
-    return suits_high_orders(damping_ratio_of_motion(model, start, critical, scales), rtol) ? 5 : 2;
+    critical.at_present(task.initial);
+    return suits_high_orders(damping_ratio_of_motion(model, task, critical, scales), rtol) ? 5 : 2;
   } catch (const RecoverableError&) {  // Integrator::start() reports the error
     return 2;
   }

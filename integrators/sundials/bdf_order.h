@@ -9,9 +9,8 @@
 namespace orthodyn::sundials {
 
 // Returns `given` if it has a value. Otherwise returns 5 if no body deforms and nothing touches, or if the motion is
-// well damped (damping_ratio.h), else 2. `start`: initial state.
-int bdf_order(const std::optional<int>& given, const Model& model, const State& start, double rtol,
-              const Scales& scales);
+// well damped (damping_ratio.h), else 2.
+int bdf_order(const std::optional<int>& given, const Model& model, const Task& task, double rtol, const Scales& scales);
 
 // Spec with the keys of a BDF method. T is derived from Options and SensitivityOptions, and has a member
 // `std::optional<int> max_order`.
