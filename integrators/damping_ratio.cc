@@ -5,8 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "integrators/newton_matrix.h"
 #include "integrators/random_vector.h"
+#include "lib/core/errors.h"
+#include "lib/linear/solver.h"
 
 namespace orthodyn {
 
@@ -21,27 +22,32 @@ constexpr double kScaleOfMotion = 0.1;
 constexpr double kWellDamped = 1e-3, kWellDampedIfLoose = 5e-3, kLoose = 5e-3;
 
 // x^T D x/x^T K x (s) of vibrations up to about the frequency omega (rad/s): x has two factors (omega^2 M + K)^-1 M.
-// Infinite if K is indefinite or x has no stiffness.
+// Infinite if this matrix is not definite, if an iterative solver does not converge, or if x has no stiffness.
 double damping_time_below(const Model& model, const State& start, double omega) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  Statistics unused;
-  NewtonMatrix matrix(model, "auto", TangentKind::exact, unused);
-  matrix.linearize(start.t, start.q, start.v);
-  if (!matrix.factor({omega * omega, 0, 1})) return kUnknown;
-  Vector x = random_vector(model), y(x.size());
-  for (int k = 0; k < 2; ++k) {
-    model.multiply_mass(x, y);
-    matrix.solve(y, x);
-  }
   Linearization at;
   model.linearize(start.t, start.q, start.v, TangentKind::exact, at);
-  std::vector<double> D(model.pattern().row.size());
-  model.combine({0, 1, 0}, at, D.data());
-  const VectorSpace space = model.space();
-  matrix.multiply_stiffness(x, y);
-  const double stiffness = space.dot(x, y);
-  model.multiply_matrix(D.data(), x, y);
-  return stiffness > 0 ? std::max(space.dot(x, y), 0.0) / stiffness : kUnknown;
+  std::vector<double> values(model.pattern().row.size());
+  const auto combine = [&](const Weights& weights) { model.combine(weights, at, values.data()); };
+  const auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"}, model.pattern());
+  combine({omega * omega, 0, 1});
+  if (solver->factor(values.data()) != FactorStatus::ok) return kUnknown;
+  Vector x = random_vector(model), y(x.size());
+  try {
+    for (int k = 0; k < 2; ++k) {
+      model.multiply_mass(x, y);
+      solver->solve(y, x);
+    }
+  } catch (const RecoverableError&) {
+    return kUnknown;
+  }
+  const auto form = [&](const Weights& weights) {
+    combine(weights);
+    model.multiply_matrix(values.data(), x, y);
+    return std::max(model.space().dot(x, y), 0.0);
+  };
+  const double damping = form({0, 1, 0}), stiffness = form({0, 0, 1});
+  return stiffness > 0 ? damping / stiffness : kUnknown;
 }
 
 }  // namespace
@@ -52,7 +58,8 @@ double damping_ratio_of_motion(const Model& model, const Task& task, const Criti
                                const Scales& scales) {
   const double omega = frequency_of_motion(scales);
   double time = critical.damping_time();
-  if (!model.traits().linear && !model.space().is_zero(task.initial.q)) {
+  const bool may_suffice = suits_high_orders(time * omega / 2, std::numeric_limits<double>::min());
+  if (may_suffice && !model.traits().linear && !model.space().is_zero(task.initial.q)) {
     const double of_run = 2 * std::numbers::pi / (task.end - task.initial.t);
     time = std::min(time, damping_time_below(model, task.initial, std::max(omega, of_run)));
   }

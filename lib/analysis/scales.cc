@@ -12,15 +12,16 @@ namespace orthodyn {
 
 namespace {
 
-// Of a displaced body, the elastic energy is limited by half of |f| |q|, with the force f: in an equilibrium under
-// tension it remains where it is.
+// The energy E0 of scales.h.
 double initial_energy(const FemModel& model, const State& state) {
   const VectorSpace space = model.space();
   double elastic = model.evaluate("energy.elastic", state)[0];
   if (!space.is_zero(state.q)) {
     Vector f(state.q.size());
     model.force(state.t, state.q, Vector::Zero(state.q.size()), f);
-    elastic = std::min(elastic, space.sum_of_sizes(f.cwiseProduct(state.q)) / 2);
+    const double released = space.sum_of_sizes(f.cwiseProduct(state.q)) / 2;
+    constexpr double kRoundOff = 1e-9;
+    elastic = released > kRoundOff * elastic ? std::min(elastic, released) : 0;
   }
   return model.evaluate("energy.kinetic", state)[0] + elastic;
 }

@@ -2,9 +2,10 @@
 // these scales.
 //
 // Notation: L is the body's largest extent, m its mass, V the largest speed of moved supports and motors, E0 the
-// initial elastic and kinetic energy (initial_energy() in scales.cc), u the largest static deflection under the peak
-// loads, c = load_duration_factor(). W is the work of the peak loads through the static displacement times c^2, or
-// through the distance L if the body is not held.
+// initial kinetic energy and the elastic energy that the start releases, at most the sum of |f q|/2 over the
+// coordinates of a displaced body with the forces f: none of a body under tension in equilibrium. u is the largest
+// static deflection under the peak loads, c = load_duration_factor(). W is the work of the peak loads through the
+// static displacement times c^2, or through the distance L if the body is not held.
 //
 //   Position: L / 10, or the size of the motion if it is known to be smaller. The size is the sum of twice the larger
 //   of c u and the largest support displacement, three times the amplitude of vibrations that initial velocities start,

@@ -188,10 +188,17 @@ std::unique_ptr<const InternalVariables> make_internal_variables(FemModel::Parts
 
 // The constraints of the joints; null if no joint holds anything. `parts` must outlive the result.
 std::unique_ptr<const Constraints> make_joint_constraints(const FemModel::Parts& parts);
-// Forces of all joints on the nodes, and of one joint on its first body (N), at displacements u with the multipliers
-// lambda; joint_force() is NaN without multipliers.
+// The force (N) of a joint's constraints on its first body, and their torque (N m) about the point `at` or `from` of
+// this body.
+struct JointReaction {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+};
+
+// Forces of all joints on the nodes (N), and the reaction of a joint that holds, at displacements u with the
+// multipliers lambda; joint_reaction() is NaN without multipliers.
 NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const Vector& lambda);
-Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda);
+JointReaction joint_reaction(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal,
+                             const Vector& lambda);
 // The force (N) or torque (N m) of a joint's motor on the first body at time t (s); NaN without multipliers. The power
 // of all motors, W; 0 without multipliers.
 double motor_force(const FemModel::Parts& parts, const Joint& joint, double t, const Vector& lambda);

@@ -379,13 +379,19 @@ FemOutput angle_output(const std::string& name, const JointCoordinate& coordinat
 
 std::vector<FemOutput> joint_outputs(const std::vector<Joint>& joints) {
   std::vector<FemOutput> out;
-  for (const Joint& joint : joints)
-    if (joint.of == Joint::Of::bodies && joint.holds())
-      out.push_back(
-          {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
-           [&joint](const View& view) {
-             return flat(joint_force(view.parts(), joint, view.nodal(), view.multipliers()));
-           }});
+  for (const Joint& joint : joints) {
+    if (joint.of != Joint::Of::bodies || !joint.holds()) continue;
+    const auto reaction = [&joint](const View& view) {
+      return joint_reaction(view.parts(), joint, view.nodal(), view.multipliers());
+    };
+    out.push_back(
+        {{"joint." + joint.name, Location::global, 3, "N", "Force of the joint on its first body.", axis_names()},
+         [reaction](const View& view) { return flat(reaction(view).force); }});
+    if (joint.bears_torque())
+      out.push_back({{"joint_torque." + joint.name, Location::global, 3, "N m",
+                      "Torque of the joint on its first body about its point `at` or `from`.", axis_names()},
+                     [reaction](const View& view) { return flat(reaction(view).torque); }});
+  }
   Eigen::Index num_angles = 0;
   for (const Joint& joint : joints) {
     if (const JointCoordinate* turn = joint.turn()) {

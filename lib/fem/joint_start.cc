@@ -41,6 +41,19 @@ void require_motors_at_start(const FemModel& model, const State& state) {
   }
 }
 
+// State::angles: those of joints with a motor have the turns that the motor prescribes.
+Vector angles_at_start(const FemModel& model, const State& state) {
+  Vector angles = model.angles(state).values;
+  Eigen::Index i = 0;
+  for (const Joint& joint : model.parts().joints) {
+    if (!joint.turn()) continue;
+    if (const JointEquation* driven = joint.motor(); driven && joint.coordinate->is_angle())
+      angles.segment(i, 1) = nearest_turns(angles.segment(i, 1), Vector::Constant(1, driven->motor.value(state.t)));
+    ++i;
+  }
+  return angles;
+}
+
 // The sum of constraints that changes least with the motion, with coefficients for constraints of equal size.
 struct WeakestSum {
   double eigenvalue;    // of the scaled matrix of the constraints: 1 if they are independent, 0 if they are dependent
@@ -147,6 +160,7 @@ double start_consistently(const FemModel& model, State& state) {
   else model.force(state.t, state.q, state.v, a);
   model.solve_mass(a);
   state.lambda = at.multipliers(state.v, a);
+  state.angles = angles_at_start(model, state);
   return (state.v - before).lpNorm<Eigen::Infinity>();
 }
 

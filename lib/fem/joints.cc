@@ -228,17 +228,30 @@ NodalVector joint_forces(const FemModel::Parts& parts, const NodalExpansion& nod
   return f;
 }
 
+namespace {
+
+Vec3 place_of(const JointPoint& point, const NodalVector& u) { return point.rest + point.mean(u); }
+
+}  // namespace
+
 // The third point belongs to the first body in equations of a distance, else to the second one.
-Vec3 joint_force(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal, const Vector& lambda) {
-  if (lambda.size() == 0) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  Vec3 sum = Vec3::Zero();
+JointReaction joint_reaction(const FemModel::Parts& parts, const Joint& joint, const NodalExpansion& nodal,
+                             const Vector& lambda) {
+  const Vec3 unknown = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (lambda.size() == 0) return {unknown, unknown};
+  JointReaction sum;
+  const Vec3 point = place_of(joint.equations.front().first, nodal.u);
+  const auto add = [&](const JointPoint& at, const Vec3& force) {
+    sum.force += force;
+    sum.torque += (place_of(at, nodal.u) - point).cross(force);
+  };
   Eigen::Index first = 0;
   for (const Joint& other : parts.joints)
     for (const JointEquation& e : other.equations) {
       for (int k = 0; k < e.size() && &other == &joint; ++k) {
         const Slopes at = slopes(e, k, nodal.time, nodal.u);
-        sum -= lambda[first + k] * at.first;
-        if (e.is_of_distance()) sum -= lambda[first + k] * at.third;
+        add(e.first, -lambda[first + k] * at.first);
+        if (e.is_of_distance()) add(e.third, -lambda[first + k] * at.third);
       }
       first += e.size();
     }
@@ -279,6 +292,11 @@ const JointEquation* Joint::motor() const {
   for (const JointEquation& e : equations)
     if (e.is_driven()) return &e;
   return nullptr;
+}
+
+bool Joint::bears_torque() const {
+  return std::any_of(equations.begin(), equations.end(),
+                     [&](const JointEquation& e) { return e.first.rest != equations.front().first.rest; });
 }
 
 const JointCoordinate* Joint::turn() const {

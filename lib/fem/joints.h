@@ -74,6 +74,7 @@ struct Joint {
   std::optional<JointCoordinate> slide = {}, angle = {};  // of cylindrical joints: the coordinate is one of them
 
   bool holds() const { return !equations.empty(); }  // false for struts
+  bool bears_torque() const;                         // false for balls, slots, distances and struts
   const JointEquation* motor() const;                // null without a motor
   const JointCoordinate* turn() const;               // the angle between the bodies; null if the joint has none
 };

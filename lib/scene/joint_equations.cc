@@ -38,6 +38,16 @@ class Ends {
 
   bool are_rigid() const { return first_.body && (!joint_.second || second_.body); }
   bool first_can_hold(const Vec3& point) const { return !found(first_, point).weights.empty(); }
+  // The direction, at right angles to the line, in which a node of the first body is farthest from it; zero without
+  // any.
+  Vec3 first_beside(const Vec3& from, const Vec3& direction) const {
+    Vec3 farthest = Vec3::Zero();
+    for (const int node : first_.nodes) {
+      const Vec3 r = mesh_.node(node) - from, across = r - direction * direction.dot(r);
+      if (across.norm() > farthest.norm()) farthest = across;
+    }
+    return farthest.stableNormalized();
+  }
   bool second_can_hold(const Vec3& point) const { return !joint_.second || !found(second_, point).weights.empty(); }
 
   // Of the nodes of the deformable end that is more nearly plane, or of the first body.
@@ -96,12 +106,13 @@ struct Directions {
   Vec3 line, side, other;
 };
 
-// The first body holds the side of the joint, if it can hold one of both directions.
+// The side of nodes in a plane with the line lies in this plane, which the first body can hold.
 Directions directions(const JointInput& joint, const Ends& ends) {
-  const Vec3 line = *joint.to - *joint.from, side = line.norm() * line.unitOrthogonal();
-  const Vec3 other = line.normalized().cross(side);
-  if (!ends.first_can_hold(*joint.from + side) && ends.first_can_hold(*joint.from + other)) return {line, other, -side};
-  return {line, side, other};
+  const Vec3 line = *joint.to - *joint.from;
+  Vec3 side = line.unitOrthogonal();
+  if (!ends.first_can_hold(*joint.from + line.norm() * side))
+    if (const Vec3 of_nodes = ends.first_beside(*joint.from, line.normalized()); !of_nodes.isZero(0)) side = of_nodes;
+  return {line, line.norm() * side, line.cross(side)};
 }
 
 JointCoordinate turning(const JointInput& joint, const Ends& ends) {

@@ -23,7 +23,8 @@ const Spec<JointSpring>& JointSpring::spec() {
           .key("damping", &JointSpring::damping, "Force per velocity (N s/m), or torque per angular velocity (N m s).",
                {.range = kNonNegative})
           .key("rest", &JointSpring::rest,
-               "Distance or angle without force, such as 30 deg; default 0, the rest shape.")
+               "Coordinate without force, such as 30 deg; default 0, the rest shape. Of a strut: the change of its "
+               "length, not its length.")
           .check([](const JointSpring& spring, const Config& config) {
             if (spring.stiffness == 0 && spring.damping == 0) config.fail("give a stiffness, a damping, or both");
             if (spring.stiffness == 0 && spring.rest != 0)
@@ -35,8 +36,8 @@ const Spec<JointSpring>& JointSpring::spec() {
 const Spec<JointStop>& JointStop::spec() {
   static const auto s =
       Spec<JointStop>()
-          .key("low", &JointStop::low, "Lowest distance or angle; default: none.")
-          .key("high", &JointStop::high, "Highest distance or angle; default: none.")
+          .key("low", &JointStop::low, "Lowest coordinate, 0 in the rest shape; default: none.")
+          .key("high", &JointStop::high, "Highest coordinate; default: none.")
           .key("stiffness", &JointStop::stiffness, "Of the stop: N/m, or N m per rad.",
                {.required = true, .range = kPositive})
           .key("onset", &JointStop::onset,
@@ -78,7 +79,8 @@ const Spec<JointLoading>& JointLoading::spec() {
 const Spec<JointDrive>& JointDrive::spec() {
   static const auto s =
       Spec<JointDrive>()
-          .key("to", &JointDrive::to, "Distance or angle at factor 1, such as 90 deg.", {.required = true})
+          .key("to", &JointDrive::to, "Coordinate at factor 1, such as 90 deg; of a distance, its change.",
+               {.required = true})
           .key("factor", &JointDrive::factor, "Time function that multiplies `to`; 0 at the start.", {.required = true})
           .check([](const JointDrive& drive, const Config& config) {
             if (!drive.factor->has_continuous_rate())
@@ -103,7 +105,7 @@ void refuse_keys_of_other_types(const JointInput& joint, const Config& config) {
                                 : "is for joints of type hinge, slot, cylindrical, slider and distance");
   if (config.has("along") && joint.type != JointType::cylindrical)
     config.at("along").fail("is for joints of type cylindrical, which slide and turn; remove it");
-  if (joint.type == JointType::strut && !joint.has_forces())
+  if (joint.type == JointType::strut && !(joint.spring || joint.stop || joint.friction || joint.load))
     config.fail("a strut holds nothing: give a spring, stop, friction or load; a massless rod is type: distance");
 }
 
@@ -117,6 +119,7 @@ void check_distances(const JointInput& joint, const Config& config) {
           fmt::format("must be above {:.4g} m: it is the change of the distance of `from` and `to`, {:.4g} m at rest",
                       -length, length));
   };
+  if (joint.spring) require_above("spring", "rest", joint.spring->rest);
   if (joint.stop && joint.stop->low) require_above("stop", "low", *joint.stop->low);
 }
 

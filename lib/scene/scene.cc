@@ -92,8 +92,8 @@ const Spec<Scene>& Scene::spec() {
           .key("clamps", &Scene::clamps, "Fixed nodes.")
           .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
           .key("joints", &Scene::joints,
-               "Connections of bodies: ball joints, hinges, sliders and rods, with springs, stops, friction, loads and "
-               "motors.",
+               "Connections of bodies: ball joints, hinges, sliders, rods and struts, with springs, stops, friction, "
+               "loads and motors.",
                {.with = kDynamic})
           .key("ties", &Scene::ties, "Surfaces of bodies that are glued together; their meshes need not match.")
           .key("start", &Scene::start,

@@ -368,7 +368,25 @@ TEST(Joints, StartWithVelocitiesThatFit) {
   EXPECT_LE((G.transpose() * a + c).norm(), 1e-12);
 }
 
-// A hinge has an angle if its first body holds a point beside the line, in any plane.
+// The nodes of an oblique plane hold points of this plane only.
+TEST(Joints, OfNodesInAnObliquePlaneHaveAnAngle) {
+  const BuiltTestScene s(R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1, young: 10, nu: 0.3}}
+time: {end: 1}
+joints:
+  - {type: hinge, name: a, from: [0, 0.1, 0.1], to: [1, 0.1, 0.1], first: {plane: {point: [0, 0, 0], normal: [0, 1, -1]}}}
+)");
+  const Joint& joint = s.model().parts().joints.at(0);
+  ASSERT_TRUE(joint.coordinate);
+  const Vec3 from(0, 0.1, 0.1);
+  const Mat3 R = Eigen::AngleAxisd(-0.2, Vec3::UnitX()).toRotationMatrix();
+  const Vector q = s.dofs([&](const Vec3& x) { return Vec3(R * (x - from) + from - x); });
+  const NodalExpansion nodal(s.model().parts(), 0, q, s.zero());
+  EXPECT_NEAR(joint.coordinate->value(nodal.u), -0.2, 1e-12);
+}
+
+// A hinge has an angle if its first body holds a point beside the line.
 TEST(Joints, OfNodesInAPlaneHaveAnAngle) {
   const BuiltTestScene s(
       two_bars("{type: hinge, name: a, from: [1, 0, 0.1], to: [1, 0.2, 0.1], first: {surface: "

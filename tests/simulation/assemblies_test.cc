@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/sensitivity/motion_sensitivity.h"
@@ -122,6 +123,34 @@ TEST_F(Resume, AnglesOfHingesCountTurns) {
   }
 }
 
+// The turns at the start are those of the motor.
+TEST_F(Resume, AMotorMayBeginAfterWholeTurns) {
+  std::string driven = kRotor;
+  driven.replace(driven.find("first: {region: bar}"), 20,
+                 "first: {region: bar}, motor: {to: 720 deg, factor: {type: expression, formula: 'cos(t)'}}");
+  driven.erase(driven.find("initial:"), driven.find("time:") - driven.find("initial:"));
+  write("driven.yaml", driven);
+  const auto result = orthodyn("run driven.yaml --quiet --out driven");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const std::string header = read_text(folder_ / "driven/probes.csv");
+  const std::string names = header.substr(0, header.find('\n'));
+  const auto column = static_cast<std::size_t>(
+      std::count(names.begin(), names.begin() + static_cast<long>(names.find("coordinate.pivot")), ','));
+  for (const auto& row : read_rows(folder_ / "driven/probes.csv"))
+    EXPECT_NEAR(row.at(column), 4 * 3.14159265358979 * std::cos(row.at(0)), 1e-6);
+}
+
+TEST_F(Resume, AnInertiaInAnotherUnitIsTold) {
+  const auto check = [&](const std::string& inertia) {
+    std::string given = kRotor;
+    given.replace(given.find("rigid: true"), 11, "rigid: {mass: 1, center: [0, 0, -0.2], inertia: " + inertia + "}");
+    write("given.yaml", given);
+    return orthodyn("check given.yaml").output;
+  };
+  EXPECT_THAT(check("[140, 140, 2.7]"), HasSubstr("are `inertia` in kg m^2 and `mass` in kg?"));  // kg cm^2
+  EXPECT_THAT(check("[1.4e-2, 1.4e-2, 2.7e-4]"), Not(HasSubstr("kg m^2 and")));
+}
+
 // Springs of hinges see angles from -180 to 180 degrees, and a run in which that matters says so.
 TEST_F(Resume, ASpringThatIsWoundUpIsTold) {
   std::string wound = kRotor;
@@ -140,11 +169,16 @@ TEST_F(Resume, AContactThatNeverActsIsTold) {
   const std::string term = "{type: contact, between: [bar.x0, block.x1], stiffness: 1e9}";
   const auto none = orthodyn(run + "'terms=[" + term + "]'");
   ASSERT_EQ(none.exit_code, 0) << none.output;
-  EXPECT_THAT(none.output, HasSubstr("nothing touched: contact_1 had no force in any step"));
+  EXPECT_THAT(none.output, HasSubstr("nothing touched: contact_1 had no force"));
+  EXPECT_THAT(none.output, HasSubstr("'bar.x0' and 'block.x1' look away from each other"));
   const auto one =
       orthodyn(run + "'terms=[" + term + ", {type: barrier_contact, between: [bar, block], stiffness: 1e9}]'");
   ASSERT_EQ(one.exit_code, 0) << one.output;
   EXPECT_THAT(one.output, Not(HasSubstr("nothing touched")));
+  const auto alike = orthodyn(run + "'terms=[{type: contact, between: [bar.x1, block.x1], stiffness: 1e9}]'");
+  EXPECT_THAT(alike.output, HasSubstr("'bar.x1' and 'block.x1' look in the same direction"));
+  const auto facing = orthodyn(run + "'terms=[{type: contact, between: [bar.x1, block.x0], stiffness: 1e9}]'");
+  EXPECT_THAT(facing.output, Not(HasSubstr("look ")));
   EXPECT_THAT(one.output, HasSubstr("never touched: contact_1\n"));
 }
 

@@ -185,7 +185,8 @@ void print_connections(const FemModel& model) {
     if (!is_of_bodies(joint)) continue;
     int constraints = 0;
     for (const JointEquation& equation : joint.equations) constraints += equation.size();
-    fmt::print("  {}: {}\n", joint.name, counted(constraints, "constraint"));
+    fmt::print("  {}: {}\n", joint.name,
+               constraints == 0 ? "a strut, no constraints" : counted(constraints, "constraint"));
   }
 }
 

@@ -247,9 +247,13 @@ void list_quantities() {
   fmt::print("                         Both need output.reactions: true, unless `expect` names them.\n");
   fmt::print("  joint.JOINT            Force of a joint on its first body, by its name (3 components, N).\n");
   fmt::print(
-      "  coordinate.JOINT       Distance (m) along the line or angle (rad) about it, along which forces and the motor "
-      "of "
-      "a joint act, or change of the distance (m) of the points of a strut or a driven distance (1 component).\n");
+      "  joint_torque.JOINT     Torque of a hinge, slider, cylindrical or fixed joint on its first body, about its\n");
+  fmt::print("                         point `at` or `from` (3 components, N m).\n");
+  fmt::print(
+      "  coordinate.JOINT       On which springs, stops, friction, loads and motors of a joint act (1 component):\n");
+  fmt::print(
+      "                         the distance (m) along the line, the angle (rad) about it, or the change of the\n");
+  fmt::print("                         distance (m) of the points of a strut or a driven distance.\n");
   fmt::print(
       "  slide.JOINT, angle.JOINT\n"
       "                         Distance (m) along the line of a cylindrical joint, and angle (rad) about it (1 "

@@ -1,6 +1,7 @@
 // Surfaces that push each other, or a plane, back: the part of a contact term that others ask for.
 #pragma once
 
+#include <atomic>
 #include <limits>
 #include <string>
 
@@ -25,6 +26,9 @@ class Contact {
   virtual bool has_resultant() const { return true; }
   virtual Vec3 resultant(const NodalState&) const = 0;
 
+  // Whether a force has been evaluated in which points touch.
+  bool has_acted() const { return has_acted_.load(std::memory_order_relaxed); }
+
   // The pressure at the deepest point, or where surfaces are nearest, Pa.
   virtual double largest_pressure(const NodalState&) const = 0;
 
@@ -40,6 +44,12 @@ class Contact {
 
   // The largest pressure over the stiffness, m. 0 for a plane.
   virtual double pressed_depth(const NodalState&) const { return 0; }
+
+ protected:
+  void note_action() const { has_acted_.store(true, std::memory_order_relaxed); }
+
+ private:
+  mutable std::atomic<bool> has_acted_ = false;
 };
 
 }  // namespace orthodyn

@@ -43,7 +43,7 @@ struct Friction {
 
 // The keys `friction`, `creep` and `name` of a contact.
 template <class C>
-Spec<C> with_friction(Spec<C> spec, double C::*coefficient, double C::*creep, std::string C::*name) {
+Spec<C> with_contact_keys(Spec<C> spec, double C::*coefficient, double C::*creep, std::string C::*name) {
   return std::move(spec)
       .key("friction", coefficient, "Coefficient of friction; 0: none. It acts against velocities, not in statics.",
            {.range = {.low = 0}})

@@ -73,6 +73,7 @@ class BarrierContact : public Term, public Contact {
   void add_force(const NodalState& s, NodalVector& f) const override {
     const PointState at(middles_, s, law_.friction.acts());
     const auto all = places(at.x);
+    if (!all->empty()) note_action();
     for (const NearPlace& place : *all) {
       const EdgeWeight weight = weight_of(place);
       Vec3 force = pressing(place, weight) * place.distance.n;
@@ -253,7 +254,7 @@ class BarrierContactChoice : public TermChoice {
  public:
   static const Spec<BarrierContactChoice>& spec() {
     using C = BarrierContactChoice;
-    static const auto s = with_friction(
+    static const auto s = with_contact_keys(
         Spec<C>()
             .key("between", &C::between_,
                  "Two surfaces that can touch, or twice the same surface for contact with itself; a region stands for "

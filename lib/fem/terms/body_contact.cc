@@ -60,6 +60,7 @@ class BodyContact : public Term, public Contact {
         force += law_.friction.force(relative_velocity(distance, touch.points(), at.v), distance.n,
                                      pressing(touch, stiffness));
       add_pair_of_forces(middles_, distance, touch.points(), force, f);
+      note_action();
     });
   }
 
@@ -183,7 +184,7 @@ class BodyContactChoice : public TermChoice {
  public:
   static const Spec<BodyContactChoice>& spec() {
     using C = BodyContactChoice;
-    static const auto s = with_friction(
+    static const auto s = with_contact_keys(
         Spec<C>()
             .key("between", &C::between_, "Two surfaces that can touch; a region stands for its whole outer surface.",
                  {.required = true})

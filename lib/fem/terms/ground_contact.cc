@@ -63,6 +63,7 @@ class GroundContact : public Term, public Contact {
       Vec3 force = pressing(d, area) * plane_.normal;
       if (plane_.friction.acts()) force += plane_.friction.force(at.v.col(point), plane_.normal, pressing(d, area));
       add_force_at(middles_, point, force, f);
+      note_action();
     });
   }
 
@@ -81,7 +82,9 @@ class GroundContact : public Term, public Contact {
     const PointState at0(middles_, s0, false), at1(middles_, s1, false);
     for (const auto& [point, area] : areas_) {
       const double mean = mean_slope(depth(point, at0.x), depth(point, at1.x), plane_.onset);
-      if (mean > 0) add_force_at(middles_, point, plane_.stiffness * area * mean * plane_.normal, f);
+      if (mean <= 0) continue;
+      add_force_at(middles_, point, plane_.stiffness * area * mean * plane_.normal, f);
+      note_action();
     }
   }
 
@@ -152,7 +155,7 @@ class GroundContactChoice : public TermChoice {
  public:
   static const Spec<GroundContactChoice>& spec() {
     using G = GroundContactChoice;
-    static const auto s = with_friction(
+    static const auto s = with_contact_keys(
         Spec<G>()
             .key("point", &G::point_, "A point of the plane.", {.unit = "m"})
             .key("normal", &G::normal_, "Away from the ground, of any length.")

@@ -111,6 +111,7 @@ void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config section = scene.at("integrator");
   std::vector<std::string> choices{"position_scale", "velocity_scale"};
   if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety", "modes"});
+  if (earlier.has("type") && section.at("type").yaml() == earlier.at("type").yaml()) choices.push_back("max_order");
   for (const auto& key : choices)
     if (!section.has(key) && earlier.has(key)) scene.set("integrator." + key, earlier.at(key));
 }

@@ -4,31 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/fem_model.h"
 #include "lib/simulation/output/observer.h"
 
 namespace orthodyn {
 
 struct ContactRecord {
   std::size_t count = 0;
-  std::vector<std::string> untouched = {};  // names of contacts without pressure at the end of any step
+  std::vector<std::string> untouched = {};  // names of contacts whose force was zero whenever it was computed
 };
 
+// Costs nothing during the run: contacts note that they act. All functions are collective.
 class ContactWatch : public Observer {
  public:
-  explicit ContactWatch(std::vector<std::string> names) : names_(std::move(names)), touched_(names_.size(), 0.0) {}
+  // `model` must outlive this object.
+  explicit ContactWatch(const FemModel& model) : model_(model), before_(model.parts().contacts.size(), 0.0) {}
 
-  void on_start(const ObservedState& observed) override { observe(observed); }
-  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override { observe(observed); }
-  void save(Archive& archive) override { archive.put("touched", touched_); }
-  void restore(const Archive& archive) override { touched_ = archive.numbers("touched", touched_.size()); }
+  void save(Archive& archive) override { archive.put("acted", acted()); }
+  void restore(const Archive& archive) override { before_ = archive.numbers("acted", before_.size()); }
 
   ContactRecord record() const;
 
  private:
-  void observe(const ObservedState& observed);
+  std::vector<double> acted() const;  // 1: yes, of each contact
 
-  std::vector<std::string> names_;
-  std::vector<double> touched_;  // 1: yes; these are not searched again
+  const FemModel& model_;
+  std::vector<double> before_;  // of the part of the run before it was resumed
 };
 
 }  // namespace orthodyn

@@ -16,6 +16,7 @@ std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
   for (const Joint& joint : parts.joints) {
     if (joint.of == Joint::Of::rigid_body) continue;
     if (joint.holds()) names.push_back("joint." + joint.name);
+    if (joint.bears_torque()) names.push_back("joint_torque." + joint.name);
     if (joint.coordinate) names.push_back("coordinate." + joint.name);
     if (joint.slide && joint.coordinate->is_angle()) names.push_back("slide." + joint.name);
     if (joint.angle && !joint.coordinate->is_angle()) names.push_back("angle." + joint.name);
@@ -24,12 +25,6 @@ std::vector<std::string> reactions_of(const FemModel::Parts& parts) {
   for (const NamedTie& tie : parts.ties) names.push_back("tie." + tie.name);
   for (const auto& [name, contact] : parts.contacts)
     if (contact->has_resultant()) names.push_back("contact." + name);
-  return names;
-}
-
-std::vector<std::string> names_of(const std::vector<NamedContact>& contacts) {
-  std::vector<std::string> names;
-  for (const NamedContact& contact : contacts) names.push_back(contact.name);
   return names;
 }
 
@@ -72,7 +67,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (setup.sensitivities) observe_sensitivities(setup, folder);
   if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
   if (model.constraints()) joints.emplace(sprung_hinges(scene));
-  if (const auto names = names_of(model.parts().contacts); !names.empty()) contacts.emplace(names);
+  if (!model.parts().contacts.empty()) contacts.emplace(model);
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 

@@ -184,17 +184,17 @@ std::vector<std::string> result_warnings(const RunResult& result) {
           "smaller integrator.rtol",
           motion->joints->gap, kLargeGap);
     if (motion->joints && !motion->joints->wound.empty())
-      add_warning(all,
-                  "{} turned by more than 180 degrees. The spring and the stop of a hinge take angles from -180 to 180 "
-                  "degrees, so that their force jumps there",
-                  join(motion->joints->wound));
-    if (const auto& c = motion->contacts;
-        c && c->untouched.size() == c->count && result.outcome.status == Outcome::Status::completed)
       add_warning(
           all,
-          "nothing touched: {} had no force in any step. Does the run end too early, or do the surfaces face away "
-          "from each other?",
-          join(c->untouched));
+          "{} turned by more than 180 degrees, where the force of a spring or stop jumps: both take angles from "
+          "-180 to 180 degrees. Use a motor or a load for turns",
+          join(motion->joints->wound));
+    if (const auto& c = motion->contacts;
+        c && c->untouched.size() == c->count && result.outcome.status == Outcome::Status::completed)
+      add_warning(all,
+                  "nothing touched: {} had no force. Does the run end too early, or do the surfaces face away "
+                  "from each other?",
+                  join(c->untouched));
     if (motion->segment_error && !(motion->segment_error->error <= kLargeError))
       all.push_back(accumulation_sentence(*motion));
   }

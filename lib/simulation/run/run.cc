@@ -172,10 +172,10 @@ class Driver {
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
     const double end = info.t, h = end - begin, parts = smooth_parts(integrator_, h);
+    const auto at = [this](double t, State& out) { interpolate(t, out); };
     for (double part = 0; part < parts; ++part) {
       const double to = part + 1 < parts ? begin + (part + 1) * h / parts : end;
-      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_,
-                                                         [this](double t, State&out) { interpolate(t, out); })) {
+      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_, at)) {
         deliver_outputs(crossing.state.t);
         for (auto* o : observers_) o->on_event(crossing);
         if (!crossing.event->stops) continue;

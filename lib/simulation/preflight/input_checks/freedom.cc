@@ -1,4 +1,5 @@
-// Bodies without supports: loads that carry them away, and ground contact that they penetrate at the start.
+// Bodies without supports: loads that carry them away, ground contact that they penetrate at the start, and contact of
+// surfaces that do not face each other.
 
 #include <algorithm>
 #include <optional>
@@ -153,6 +154,51 @@ void check_overlap(const CheckContext& context, Warnings& out) {
   }
 }
 
+// The sum of the area vectors of a surface, and the middle of its faces; zero for curved or closed surfaces.
+struct PlaneSurface {
+  Vec3 area = Vec3::Zero(), middle = Vec3::Zero();  // m^2, m
+};
+
+PlaneSurface plane_surface(const Mesh& mesh, const std::vector<FaceCorners>& faces) {
+  constexpr double kPlane = 0.99;
+  PlaneSurface out;
+  double total = 0;
+  for (const FaceCorners& face : faces) {
+    const auto corner = [&](std::size_t k) { return Vec3(mesh.node(face[k])); };
+    const Vec3 area = (corner(1) - corner(face.size() == 4 ? 3 : 0)).cross(corner(2) - corner(0)) / 2;
+    out.area += area;
+    out.middle += area.norm() / 3 * (corner(0) + corner(1) + corner(2));
+    total += area.norm();
+  }
+  out.middle /= total;
+  if (out.area.norm() < kPlane * total) out.area.setZero();
+  return out;
+}
+
+// Contact of plane surfaces that look away from each other, or in one direction: each lies behind the other.
+void check_facing(const CheckContext& context, Warnings& out) {
+  if (!context.config.has("terms")) return;
+  const Mesh& mesh = context.built.model->parts().mesh;
+  const Config terms = context.config.at("terms");
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const std::string type = terms.at(i).has("type") ? terms.at(i).at("type").text() : "";
+    if ((type != "contact" && type != "barrier_contact") || !terms.at(i).has("between")) continue;
+    const Config between = terms.at(i).at("between");
+    const auto first = mesh.surfaces.find(between.at(0).text()), second = mesh.surfaces.find(between.at(1).text());
+    if (first == mesh.surfaces.end() || second == mesh.surfaces.end() || first == second) continue;
+    const PlaneSurface a = plane_surface(mesh, first->second), b = plane_surface(mesh, second->second);
+    if (a.area.isZero(0) || b.area.isZero(0)) continue;
+    const Vec3 apart = b.middle - a.middle, n = a.area.normalized(), m = b.area.normalized();
+    constexpr double kBehind = 2e-3;  // of the extent; less is an overlap
+    const bool look_away = std::max(n.dot(apart), -m.dot(apart))<-kBehind * context.extent, alike = n.dot(m)> 0.5;
+    if (look_away || alike)
+      warn(out, between.where(),
+           "'{}' and '{}' {}, so that they cannot touch before bodies pass through each other: name the surfaces that "
+           "face each other, or whole bodies",
+           first->first, second->first, alike ? "look in the same direction" : "look away from each other");
+  }
+}
+
 }  // namespace
 
 bool is_free(const CheckContext& context) {
@@ -169,6 +215,7 @@ void check_freedom(const CheckContext& context, Warnings& out) {
   check_drift(context, out);
   check_ground(context, out);
   check_overlap(context, out);
+  check_facing(context, out);
 }
 
 }  // namespace orthodyn::input_checks

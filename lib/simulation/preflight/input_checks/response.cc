@@ -111,7 +111,8 @@ Warnings check_response(const Config& config, const Scene& scene, const BuiltSce
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
   // Bodies that soft springs hold come to rest on each other, or on the ground.
   const bool may_touch = !built.model->parts().contacts.empty();
-  if (share > kTooFar && may_touch) return {};
+  if (share > kTooFar && may_touch)
+    return {fmt::format("{}: {} unless contact stops it; {}", error.place, finding, error.words)};
   if (share > kImpossible) throw ConfigError(error.place, fmt::format("{}; {}", finding, error.words));
   if (share > kTooFar) return {fmt::format("{}: {}; {}", error.place, finding, error.words)};
   if (share < kUnseen)
