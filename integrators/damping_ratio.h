@@ -7,11 +7,11 @@
 
 namespace orthodyn {
 
-// Damping ratio beta omega / 2 of the motion of a task, with beta = D/K and omega = frequency_of_motion(scales).
-// beta is critical.damping_time(), that of the fastest vibration, which is that of all if every region has damping D =
-// beta K. In a displaced body it is at most that of vibrations about as fast as the motion: tension across thin bodies
-// adds stiffness without damping. Precondition: `critical` has been evaluated at the start. Throws the
-// model's RecoverableError. Collective.
+// Damping ratio beta omega / 2 of the motion of a task, with the damping time beta (s) and omega =
+// frequency_of_motion(scales). beta is D/K of the fastest vibration, critical.damping_time(). All vibrations have this
+// beta if every region has damping D = beta K and the start is the rest shape. In a displaced body, tension adds
+// stiffness without damping; beta is then at most D/K of vibrations about as fast as the motion or the run.
+// Precondition: `critical` has been evaluated at the start. Throws the model's RecoverableError. Collective.
 double damping_ratio_of_motion(const Model& model, const Task& task, const CriticalStep& critical,
                                const Scales& scales);
 

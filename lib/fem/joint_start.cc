@@ -41,7 +41,7 @@ void require_motors_at_start(const FemModel& model, const State& state) {
   }
 }
 
-// State::angles: those of joints with a motor have the turns that the motor prescribes.
+// State::angles at the start: between -pi and pi, or with the turns that a motor prescribes.
 Vector angles_at_start(const FemModel& model, const State& state) {
   Vector angles = model.angles(state).values;
   Eigen::Index i = 0;

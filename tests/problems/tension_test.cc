@@ -39,7 +39,7 @@ Scales scales_of(const BuiltTestScene& s) {
   return estimate_scales(s.model(), s.built.initial, end, static_response(s.model(), s.built.initial, end));
 }
 
-// The energy of the tension stays where it is: a hundred times that of the motion.
+// The energy of the tension is a hundred times the kinetic energy, and does not move the strip.
 TEST(Tension, HasNoPartInTheScaleOfVelocities) {
   const BuiltTestScene s(strip(kStretch, "ida_bdf"));
   EXPECT_NEAR(scales_of(s).velocity, 3 * kSpeed / std::sqrt(2), 0.02 * kSpeed);
@@ -62,7 +62,8 @@ std::string order_of(const BuiltTestScene& s) {
   return "none";
 }
 
-// The damping of a strip without tension is that of its bending: a ratio of 1e-2 at the frequency of the motion.
+// Without tension, bending is damped: the damping ratio is 1e-2 at the frequency of the motion. With tension, the
+// transverse vibration is hardly damped.
 TEST(Tension, IsNotDampedByTheDampingOfTheMaterial) {
   for (const char* method : {"cvode_bdf", "ida_bdf"}) {
     EXPECT_EQ(order_of(BuiltTestScene(strip(kStretch, method, 0.01))), "2") << method;

@@ -123,7 +123,7 @@ TEST_F(Resume, AnglesOfHingesCountTurns) {
   }
 }
 
-// The turns at the start are those of the motor.
+// The motor begins at two turns, and so does the angle of its joint.
 TEST_F(Resume, AMotorMayBeginAfterWholeTurns) {
   std::string driven = kRotor;
   driven.replace(driven.find("first: {region: bar}"), 20,
@@ -403,8 +403,8 @@ TEST(MotionSensitivities, AreNotPromisedForConstraints) {
   EXPECT_FALSE(has(kTouch));
 }
 
-// A strut with a spring is a spring between two points: frequencies and derivatives of motions are those of the term
-// `spring`.
+// A strut with a spring has the natural frequencies, and the derivatives of motions, of the term `spring` between the
+// same points.
 TEST_F(Resume, AStrutVibratesAsASpring) {
   const std::string spring = "terms: [{type: spring, nearest: [1, 1, 2], anchor: [0, 0, 0], stiffness: 1e5}]";
   for (const auto& [name, connection] : {std::pair("strut", kStrut), std::pair("spring", spring)}) {

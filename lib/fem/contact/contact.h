@@ -21,8 +21,8 @@ class Contact {
   };
   virtual const Label& label() const = 0;
 
-  // The force on the first surface, or that of a plane on the body, N. Contact of a surface with itself has none: the
-  // sum of its forces is zero.
+  // resultant(): the sum of the forces (N) on the first surface, or on the body that touches a plane. Contact of a
+  // surface with itself has no resultant, as the sum of its forces is zero.
   virtual bool has_resultant() const { return true; }
   virtual Vec3 resultant(const NodalState&) const = 0;
 

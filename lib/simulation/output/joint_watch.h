@@ -15,7 +15,8 @@ struct JointErrors {
 
 class JointWatch : public Observer {
  public:
-  // `sprung`: names of the hinges with a spring or stop, whose force is that of an angle from -pi to pi.
+  // `sprung`: names of the joints with a spring or stop along their angle. Springs and stops take angles from -pi to
+  // pi.
   explicit JointWatch(std::vector<std::string> sprung) : sprung_(std::move(sprung)), farthest_(sprung_.size(), 0.0) {}
 
   void on_start(const ObservedState& observed) override { observe(observed); }

@@ -189,8 +189,10 @@ void check_facing(const CheckContext& context, Warnings& out) {
     const PlaneSurface a = plane_surface(mesh, first->second), b = plane_surface(mesh, second->second);
     if (a.area.isZero(0) || b.area.isZero(0)) continue;
     const Vec3 apart = b.middle - a.middle, n = a.area.normalized(), m = b.area.normalized();
-    constexpr double kBehind = 2e-3;  // of the extent; less is an overlap
-    const bool look_away = std::max(n.dot(apart), -m.dot(apart))<-kBehind * context.extent, alike = n.dot(m)> 0.5;
+    constexpr double kBehind = 2e-3;                                // of the extent; less is an overlap
+    const double farthest = std::max(n.dot(apart), -m.dot(apart));  // m in front of the other surface; negative: behind
+    const bool look_away = farthest < -kBehind * context.extent;
+    const bool alike = n.dot(m) > 0.5;
     if (look_away || alike)
       warn(out, between.where(),
            "'{}' and '{}' {}, so that they cannot touch before bodies pass through each other: name the surfaces that "
